@@ -1,0 +1,206 @@
+//! The intrinsic Delaunay Laplacian: the cotangent Laplacian of the intrinsic Delaunay triangulation of the same surface.
+//!
+//! # Definition
+//! ```text
+//! ω_ij = ½ Σ (cot α_e + cot β_e)   over the intrinsic edges e from i to j
+//! ```
+//! of the triangulation of the same polyhedral metric with the same vertices in which `α_e + β_e ≤ π` at every interior edge. It is
+//! reached by flipping edges; several edges may join the same two vertices, and a loop contributes nothing. Where four
+//! vertices are cocircular the triangulation is not unique; L is, since the diagonals weigh zero.
+//!
+//! # Shapes and units
+//! L: n×n, dimensionless. M: n×n, length² (`unit`: dimensionless), from the intrinsic triangles.
+//!
+//! # Convention
+//! That of `cotan`, with which it agrees, entry by entry, on a Delaunay mesh. The number of flips is a note of the operator.
+//!
+//! # Guarantees
+//! * FIN, SYM, NULL, PSD: always.
+//! * POS0, MVP, MAX-local: where no triangle was left out. *Exception*: isolated vertices; by rounding, see below.
+//! * MAX-global: on connected surfaces. MAX-heat: on closed ones, for lumped masses.
+//! * POS, LOC, MASS, PERM, UNION: without flips, that is on Delaunay meshes (POS: strictly Delaunay).
+//! * KER: promised where angles are at least 1°; flips only enlarge the smallest angle.
+//! * LIN, ENERGY, FLUX: on planar meshes, convex or not: flips give a triangulation of the same domain by straight edges.
+//! * PERM, UNION, RIGID, ISO, SCALE: for the masses `voronoi` and `unit` (SCALE: `voronoi`), which do not depend on the choice at
+//!   cocircular vertices; promised where angles are at least 1°.
+//!
+//! # Does not hold
+//! * LOC: the vertices (±2, 0), (0, ±1) with the long diagonal: the entry of the short one, which is no edge of the mesh.
+//! * POS: there, the edge of the mesh has no weight. POS-boundary: a triangle with an obtuse angle opposite the boundary.
+//! * REACH: one moved vertex can start a chain of flips.
+//! * LIN, ENERGY: on surfaces in space, coordinates are not linear along intrinsic edges.
+//! * MASS: shares are those of the intrinsic star, and `voronoi` can be negative at the boundary.
+//! * PERM, UNION: with `barycentric`, `mixed` or `consistent` mass at cocircular vertices, where the order of the edges, or the
+//!   rounding of a translated copy, chooses the diagonal.
+//! * MAX-heat: an obtuse angle opposite the boundary; the consistent mass with small time steps.
+//!
+//! # Boundary
+//! Natural. Boundary edges are never flipped, and their weights may be negative; they join boundary vertices only, so the
+//! Dirichlet problem does not see them.
+//!
+//! # Degenerate input
+//! Triangles of zero area are refused, or left out with `degenerate=skip`, which leaves a slit. An edge with more than two
+//! triangles and a surface that cannot be oriented are refused. Pinched vertices are admitted.
+//!
+//! # Cost and accuracy
+//! O(F) memory; a flip is O(1), and their number is about F in practice but not bounded by F in space. In the plane edges are
+//! judged exactly, weights are computed from positions, and signs are exact. In space flipped triangles are known by rounded
+//! lengths: a weight that is zero in exact arithmetic may come out negative by rounding; it is kept and counted in a note.
+//!
+//! # References
+//! \[bobenko-springborn2007\] (the operator, its uniqueness); \[wardetzky2007\] (its properties); \[musin1997\] for the end of
+//! the flips in space, see [`domain::intrinsic`](crate::domain::intrinsic).
+//!
+//! # Example
+//! The rhombus (±2, 0), (0, ±1) cut along its long diagonal: opposite it both cotangents are −¾. The flip puts in the short
+//! diagonal, opposite which both are ¾.
+//! ```
+//! use lapjury::domain::{Domain, Surface};
+//! let rhombus = Surface::planar(&[[-2.0, 0.0], [0.0, -1.0], [2.0, 0.0], [0.0, 1.0]], &[[0, 1, 2], [0, 2, 3]])?;
+//! let delaunay = lapjury::laplacian::find("intrinsic-delaunay").ok_or("missing")?;
+//! let operator = delaunay.build(&Domain::from(rhombus), &Default::default())?;
+//! let l = operator.stiffness();
+//! assert_eq!([l.at(0, 2), l.at(1, 3)], [0.0, -0.75]);
+//! assert_eq!(operator.provenance().notes, ["1 flips to the intrinsic Delaunay triangulation"]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+use std::cmp::Ordering;
+
+use super::shape::{Shape, Triangles, with_sign};
+use super::stiffness::EdgeWeights;
+use super::{BuildError, Fact, Laplacian, Promise, When, mass, on_triangles, stiffness};
+use crate::domain::intrinsic::{IntrinsicError, IntrinsicTriangulation};
+use crate::domain::{Domain, delaunay};
+use crate::operator::{Operator, Provenance};
+use crate::parameter::Settings;
+
+const UNIQUE: When = When::Is("mass", &["voronoi", "unit"]);
+
+/// The catalogue entry.
+pub static ENTRY: Laplacian = Laplacian {
+    id: "intrinsic-delaunay",
+    name: "intrinsic Delaunay Laplacian",
+    definition: "the cotangent Laplacian of the intrinsic Delaunay triangulation, reached by flips",
+    sources: &["bobenko-springborn2007", "musin1997", "wardetzky2007"],
+    accepts: on_triangles::ACCEPTS,
+    parameters: &[on_triangles::MASS, on_triangles::DEGENERATE],
+    promises: &[
+        Promise::holds("FIN"),
+        Promise::holds("SYM"),
+        Promise::holds("NULL"),
+        Promise::holds("PSD"),
+        Promise::holds_given("POS0", &[Fact::NonDegenerate]),
+        Promise::holds_given("POS", &[Fact::StrictlyDelaunay, Fact::NonDegenerate]),
+        Promise::holds_given("MVP", &[Fact::NonDegenerate, Fact::NoIsolatedVertex]),
+        Promise::holds_given("MAX-local", &[Fact::NonDegenerate, Fact::NoIsolatedVertex]),
+        Promise::holds_given("MAX-global", &[Fact::NonDegenerate, Fact::Connected]),
+        Promise::holds_given("MAX-heat", &[Fact::NonDegenerate, Fact::NoIsolatedVertex, Fact::Closed])
+            .when(&[on_triangles::LUMPED]),
+        Promise::holds_given("LOC", &[Fact::Delaunay]),
+        Promise::holds_given("KER", &[Fact::NonDegenerate, Fact::HealthyAngles]),
+        Promise::holds_given("LIN", &[Fact::Planar, Fact::NonDegenerate]),
+        Promise::holds_given("FLUX", &[Fact::Planar, Fact::NonDegenerate, Fact::Manifold]),
+        Promise::holds_given("ENERGY", &[Fact::Planar]),
+        Promise::holds_given("MASS", &[Fact::Delaunay, Fact::NonDegenerate, Fact::NoIsolatedVertex])
+            .when(&[on_triangles::POSITIVE_AREA]),
+        Promise::holds_given("PERM", &[Fact::Delaunay]),
+        Promise::holds_given("PERM", &[Fact::HealthyAngles]).when(&[UNIQUE]),
+        Promise::holds_given("UNION", &[Fact::StrictlyDelaunay]),
+        Promise::holds_given("UNION", &[Fact::HealthyAngles]).when(&[UNIQUE]),
+        Promise::holds_given("RIGID", &[Fact::HealthyAngles]).when(&[UNIQUE]),
+        Promise::holds_given("ISO", &[Fact::HealthyAngles]).when(&[UNIQUE]),
+        Promise::holds_given("SCALE", &[Fact::HealthyAngles]).when(&[When::Is("mass", &["voronoi"])]),
+        Promise::fails_somewhere("LOC"),
+        Promise::fails_somewhere("POS"),
+        Promise::fails_somewhere("POS-boundary"),
+        Promise::fails_somewhere("REACH"),
+        Promise::fails_somewhere("LIN"),
+        Promise::fails_somewhere("ENERGY"),
+        Promise::fails_somewhere("MASS"),
+        Promise::fails_somewhere("PERM"),
+        Promise::fails_somewhere("UNION"),
+        Promise::fails_somewhere("MAX-heat"),
+    ],
+    build,
+};
+
+fn build(domain: &Domain, settings: &Settings) -> Result<Operator, BuildError> {
+    let surface = on_triangles::surface(ENTRY.id, domain)?;
+    let skip = settings.get("degenerate") == "skip";
+    let triangles = Triangles::new(ENTRY.id, surface, skip)?.with_lengths(ENTRY.id)?;
+    let mut intrinsic = IntrinsicTriangulation::new(surface, |face| triangles.is_proper(face)).map_err(refusal)?;
+    let flips = intrinsic.make_delaunay();
+    let shapes: Vec<Shape<f64>> = (0..intrinsic.face_count()).map(|f| shape(&intrinsic, f)).collect();
+    let weights: Vec<_> = (0..intrinsic.edge_count()).filter_map(|e| edge_weights(&intrinsic, &shapes, e)).collect();
+    let n = surface.positions().len();
+    let matrix = stiffness::finite(ENTRY.id, n, &weights)?;
+    let corners = (0..intrinsic.face_count()).map(|f| intrinsic.corners(f));
+    let mass = mass::build(ENTRY.id, settings.get("mass"), n, corners.zip(&shapes))?;
+    let mut notes = on_triangles::notes(&triangles);
+    notes.push(format!("{flips} flips to the intrinsic Delaunay triangulation"));
+    notes.extend(negative_by_rounding(&intrinsic, &weights));
+    let provenance = Provenance { id: ENTRY.id.into(), parameters: settings.all().clone(), notes };
+    let operator = Operator::new(matrix, provenance)?.with_mass(mass)?;
+    let exact = (intrinsic.is_planar() || flips == 0) && !has_parallel_edges(&weights);
+    Ok(if exact { operator.with_exact_signs() } else { operator })
+}
+
+fn refusal(error: IntrinsicError) -> BuildError {
+    let laplacian = ENTRY.id;
+    match error {
+        IntrinsicError::NotATriangle { face, corners } => BuildError::NotATriangle { laplacian, face, corners },
+        IntrinsicError::NonManifold { a, b, faces } => BuildError::NonManifold { laplacian, a, b, faces },
+        IntrinsicError::NotOrientable { a, b } => BuildError::NotOrientable { laplacian, a, b },
+    }
+}
+
+/// The shape of an intrinsic triangle, in the order of its half-edges: from positions where it is straight in space.
+fn shape(intrinsic: &IntrinsicTriangulation, face: usize) -> Shape<f64> {
+    if intrinsic.is_straight(face) {
+        return Shape::in_space(intrinsic.corners(face).map(|v| intrinsic.surface().point(v)));
+    }
+    // Corner k is where half-edge k starts; opposite it is the half-edge that follows.
+    let [h, n, p] = intrinsic.half_edges(face);
+    let opposite = [n, p, h];
+    Shape {
+        cotangents: opposite.map(|h| intrinsic.cotangent_opposite(h)),
+        squared_lengths: opposite.map(|h| intrinsic.length(h / 2) * intrinsic.length(h / 2)),
+        doubled_area: intrinsic.doubled_area(face),
+    }
+}
+
+/// The ends and the weight of an intrinsic edge, its sign exact where both triangles are straight.
+fn edge_weights(intrinsic: &IntrinsicTriangulation, shapes: &[Shape<f64>], edge: usize) -> Option<EdgeWeights<f64>> {
+    let ends = intrinsic.ends(edge)?;
+    let (mut weight, mut apexes, mut straight) = (0.0, Vec::with_capacity(2), true);
+    for h in intrinsic.sides(edge) {
+        let face = intrinsic.face(h);
+        let ring = intrinsic.half_edges(face);
+        let apex = (0..3).find(|&k| ring[(k + 1) % 3] == h)?;
+        weight += 0.5 * shapes[face].cotangents[apex];
+        apexes.push(intrinsic.surface().positions()[intrinsic.corners(face)[apex]]);
+        straight &= intrinsic.is_straight(face);
+    }
+    if straight {
+        let [p, q] = ends.map(|v| intrinsic.surface().positions()[v]);
+        weight = with_sign(weight, delaunay::cotangent_sum_sign(p, q, &apexes).unwrap_or(Ordering::Equal));
+    }
+    Some((ends, [weight, weight]))
+}
+
+/// A note on interior edges whose weight is negative: on a Delaunay triangulation only rounding can make it so.
+fn negative_by_rounding(intrinsic: &IntrinsicTriangulation, weights: &[EdgeWeights<f64>]) -> Option<String> {
+    let edges = (0..intrinsic.edge_count()).filter(|&e| intrinsic.sides(e).next().is_some());
+    let interior = edges.zip(weights).filter(|&(e, _)| intrinsic.sides(e).count() == 2);
+    let negative: Vec<f64> = interior.map(|(_, (_, [w, _]))| *w).filter(|w| *w < 0.0).collect();
+    let worst = negative.iter().copied().reduce(f64::min)?;
+    let count = negative.len();
+    Some(format!("{count} interior weights are negative by rounding, the worst is {worst:e}; they are kept"))
+}
+
+fn has_parallel_edges(weights: &[EdgeWeights<f64>]) -> bool {
+    let mut ends: Vec<_> = weights.iter().map(|&([a, b], _)| [a.min(b), a.max(b)]).collect();
+    ends.sort_unstable();
+    ends.windows(2).any(|pair| pair[0] == pair[1])
+}

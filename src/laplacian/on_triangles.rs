@@ -1,0 +1,76 @@
+//! What all constructions on triangle surfaces have in common: their parameters, and the way from edge weights to operator.
+
+use super::shape::Triangles;
+use super::{BuildError, When, mass, stiffness};
+use crate::domain::{Domain, DomainKind, Surface};
+use crate::operator::{Operator, Provenance};
+use crate::parameter::{Parameter, Range, Settings};
+
+/// The kinds of domain accepted.
+pub(super) const ACCEPTS: &[DomainKind] = &[DomainKind::Surface];
+
+/// The parameter `mass`.
+pub(super) const MASS: Parameter =
+    Parameter { name: "mass", meaning: "the mass matrix", default: "barycentric", range: Range::Choice(mass::KINDS) };
+
+/// The parameter `degenerate`.
+pub(super) const DEGENERATE: Parameter = Parameter {
+    name: "degenerate",
+    meaning: "what to do with triangles of zero area: refuse the mesh, or skip them and say so",
+    default: "refuse",
+    range: Range::Choice(&["refuse", "skip"]),
+};
+
+/// Masses that are diagonal, and positive wherever the weights of a surface are.
+pub(super) const LUMPED: When = When::Is("mass", &["barycentric", "voronoi", "mixed", "unit"]);
+
+/// Masses that are diagonal and positive on every surface.
+pub(super) const POSITIVE_LUMPED: When = When::Is("mass", &["barycentric", "mixed", "unit"]);
+
+/// Masses that are positive definite on every surface and add up to its area.
+pub(super) const POSITIVE_AREA: When = When::Is("mass", &["barycentric", "mixed", "consistent"]);
+
+/// The surface of a domain.
+pub(super) fn surface<'a>(laplacian: &'static str, domain: &'a Domain) -> Result<&'a Surface, BuildError> {
+    domain.as_surface().ok_or(BuildError::WrongKind { laplacian, kind: domain.kind(), accepts: ACCEPTS })
+}
+
+/// The operator with the weights `[ω_ij, ω_ji]` that a formula gives for each edge, the natural sum over the triangles
+/// present at the edge: two inside, one on the boundary, more where the surface is not a manifold.
+pub(super) fn operator(
+    laplacian: &'static str,
+    domain: &Domain,
+    settings: &Settings,
+    weights: impl Fn(&Triangles, usize) -> [f64; 2],
+) -> Result<Operator, BuildError> {
+    let surface = surface(laplacian, domain)?;
+    let skip = settings.get("degenerate") == "skip";
+    let triangles = Triangles::new(laplacian, surface, skip)?.with_lengths(laplacian)?;
+    let edges = surface.topology().edges();
+    let weights: Vec<_> = edges.iter().enumerate().map(|(e, &ends)| (ends, weights(&triangles, e))).collect();
+    let n = surface.positions().len();
+    let matrix = stiffness::finite(laplacian, n, &weights)?;
+    let shapes = triangles.each().map(|(_, corners, shape)| (corners, shape));
+    let mass = mass::build(laplacian, settings.get("mass"), n, shapes)?;
+    let notes = notes(&triangles);
+    let provenance = Provenance { id: laplacian.into(), parameters: settings.all().clone(), notes };
+    Ok(Operator::new(matrix, provenance)?.with_mass(mass)?)
+}
+
+/// What a reader should know of the mesh: triangles left out, edges with more than two.
+pub(super) fn notes(triangles: &Triangles) -> Vec<String> {
+    let mut notes = Vec::new();
+    if triangles.skipped() > 0 {
+        notes.push(format!("{} triangles of zero area were left out", triangles.skipped()));
+    }
+    let topology = triangles.surface().topology();
+    let sheets = topology.non_manifold_edges();
+    if let Some(&first) = sheets.first() {
+        let ([a, b], faces) = (topology.edges()[first], topology.sides(first).len());
+        notes.push(format!(
+            "{} edges have more than two faces, the first is ({a}, {b}) with {faces} faces; their weights are sums over all of them",
+            sheets.len()
+        ));
+    }
+    notes
+}

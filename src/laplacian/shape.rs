@@ -1,0 +1,203 @@
+//! The metric of a triangle as the constructions need it, and the triangles of a surface that have one.
+
+use std::cmp::Ordering;
+
+use super::BuildError;
+use crate::domain::geometry::{self, Vec3};
+use crate::domain::{Surface, topology::Side};
+use crate::scalar::Scalar;
+
+/// What the constructions need of a triangle, over `f64` or over the rationals (in the plane all of it is rational).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shape<S> {
+    /// The cotangents of the angles at the three corners.
+    pub cotangents: [S; 3],
+    /// The squared length of the side opposite each corner.
+    pub squared_lengths: [S; 3],
+    /// Twice the area, positive.
+    pub doubled_area: S,
+}
+
+impl Shape<f64> {
+    /// Of a triangle in space. Every number has a small error relative to what the angles amplify
+    /// ([`geometry::cotangent`]); nothing over- or underflows on the way.
+    pub fn in_space(corners: [Vec3; 3]) -> Self {
+        let at = |k: usize| corners[k % 3];
+        let sides: [Vec3; 3] = std::array::from_fn(|k| at(k + 2) - at(k + 1));
+        // The area is most accurate from the corner with the largest sine, which is opposite the longest side.
+        let length = sides.map(|side| side.amax());
+        let apex = (1..3).fold(0, |best, k| if length[k] > length[best] { k } else { best });
+        Shape {
+            cotangents: std::array::from_fn(|k| geometry::cotangent(at(k), at(k + 1), at(k + 2))),
+            squared_lengths: sides.map(|side| side.norm_squared()),
+            doubled_area: geometry::doubled_area_in_space(at(apex), at(apex + 1), at(apex + 2)),
+        }
+    }
+}
+
+impl<S: Scalar> Shape<S> {
+    /// Of a triangle in the plane, exactly over the rationals; `None` if it is degenerate.
+    pub fn in_plane(corners: [&[S; 2]; 3]) -> Option<Self> {
+        let cotangent = |k: usize| geometry::cotangent_in_plane(corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3]);
+        let squared = |k: usize| {
+            let (p, q) = (corners[(k + 1) % 3], corners[(k + 2) % 3]);
+            let side: [S; 2] = std::array::from_fn(|axis| q[axis].clone() - p[axis].clone());
+            geometry::dot(&side, &side)
+        };
+        Some(Shape {
+            cotangents: [cotangent(0)?, cotangent(1)?, cotangent(2)?],
+            squared_lengths: [squared(0), squared(1), squared(2)],
+            doubled_area: geometry::doubled_area(corners[0], corners[1], corners[2]).magnitude(),
+        })
+    }
+}
+
+/// The triangles of a surface with their shapes; degenerate ones are refused or left out.
+pub struct Triangles<'a, S = f64> {
+    surface: &'a Surface,
+    shapes: Vec<Option<Shape<S>>>,
+}
+
+impl<'a> Triangles<'a, f64> {
+    /// Checks that every face is a triangle, finds the degenerate ones (exactly), computes the shapes of the others.
+    ///
+    /// # Errors
+    /// A face with more than three corners; a degenerate triangle, unless they are to be left out (`skip`).
+    pub fn new(laplacian: &'static str, surface: &'a Surface, skip: bool) -> Result<Self, BuildError> {
+        let corners = check_triangles(laplacian, surface)?;
+        let at = |v: usize| surface.positions()[v];
+        let proper: Vec<bool> = corners.iter().map(|&[i, j, k]| !geometry::collinear(at(i), at(j), at(k))).collect();
+        let count = proper.iter().filter(|p| !**p).count();
+        if let (Some(face), false) = (proper.iter().position(|p| !p), skip) {
+            return Err(BuildError::Degenerate { laplacian, face, corners: corners[face], count });
+        }
+        let shape = |(t, &proper): (&[usize; 3], &bool)| proper.then(|| Shape::in_space(t.map(|v| surface.point(v))));
+        Ok(Triangles { surface, shapes: corners.iter().zip(&proper).map(shape).collect() })
+    }
+
+    /// Refuses triangles so small that the squares of their sides lose digits below the range of `f64`.
+    ///
+    /// # Errors
+    /// The first side shorter than about 3e-145.
+    pub fn with_lengths(self, laplacian: &'static str) -> Result<Self, BuildError> {
+        // 2⁻¹⁰²² · 2⁶²: a product of two numbers near its root still has all of its 53 bits.
+        const SMALLEST: f64 = 1e-289;
+        for (_, [i, j, _], shape) in self.each() {
+            if shape.squared_lengths.iter().any(|s| *s < SMALLEST) {
+                return Err(BuildError::NotFinite { laplacian, i, j, value: "a length that underflows".into() });
+            }
+        }
+        Ok(self)
+    }
+}
+
+impl<'a, S: Scalar> Triangles<'a, S> {
+    /// The exact triangles of a planar mesh; `None` unless all faces are triangles, none is degenerate and the mesh is
+    /// planar ([`Surface::plane`]).
+    pub fn in_plane(surface: &'a Surface) -> Option<Self> {
+        let positions = surface.planar_positions::<S>()?;
+        let shape = |f: usize| Shape::in_plane(surface.triangle(f)?.map(|v| &positions[v])).map(Some);
+        let shapes = (0..surface.faces().len()).map(shape).collect::<Option<Vec<_>>>()?;
+        Some(Triangles { surface, shapes })
+    }
+
+    /// The surface.
+    pub fn surface(&self) -> &'a Surface {
+        self.surface
+    }
+
+    /// The proper triangles: face, corners and shape.
+    pub fn each(&self) -> impl Iterator<Item = (usize, [usize; 3], &Shape<S>)> + Clone {
+        self.shapes.iter().enumerate().filter_map(|(f, shape)| Some((f, self.surface.triangle(f)?, shape.as_ref()?)))
+    }
+
+    /// Whether a triangle is not degenerate.
+    pub fn is_proper(&self, face: usize) -> bool {
+        self.shapes[face].is_some()
+    }
+
+    /// The number of triangles left out.
+    pub fn skipped(&self) -> usize {
+        self.shapes.iter().filter(|s| s.is_none()).count()
+    }
+
+    /// The proper triangles beside an edge, each seen from the edge.
+    pub fn beside(&self, edge: usize) -> impl Iterator<Item = Flank<'_, S>> {
+        self.surface.topology().sides(edge).iter().filter_map(|side| self.flank(side))
+    }
+
+    fn flank(&self, side: &Side) -> Option<Flank<'_, S>> {
+        let shape = self.shapes[side.face].as_ref()?;
+        let (start, end) = (side.corner, (side.corner + 1) % 3);
+        let (low, high) = if side.forward { (start, end) } else { (end, start) };
+        let apex = (side.corner + 2) % 3;
+        let opposite = self.surface.triangle(side.face)?[apex];
+        Some(Flank { shape, corners: [low, high, apex], opposite })
+    }
+}
+
+/// A triangle seen from one of its edges ij, i < j.
+pub struct Flank<'a, S> {
+    /// Its shape.
+    pub shape: &'a Shape<S>,
+    /// Which corners of the shape are i, j, and the one opposite.
+    pub corners: [usize; 3],
+    /// The vertex opposite.
+    pub opposite: usize,
+}
+
+fn check_triangles(laplacian: &'static str, surface: &Surface) -> Result<Vec<[usize; 3]>, BuildError> {
+    let triangle = |face: usize| {
+        let corners = surface.faces()[face].len();
+        surface.triangle(face).ok_or(BuildError::NotATriangle { laplacian, face, corners })
+    };
+    (0..surface.faces().len()).map(triangle).collect()
+}
+
+/// The weight with its sign replaced by the exact one: zero where that is zero, and never zero where it is not.
+///
+/// The sign that is replaced was one of rounding, so the weight moves by no more than its rounding error.
+pub(super) fn with_sign(weight: f64, sign: Ordering) -> f64 {
+    if !weight.is_finite() {
+        return weight;
+    }
+    match sign {
+        Ordering::Less => -weight.abs().max(f64::MIN_POSITIVE),
+        Ordering::Equal => 0.0,
+        Ordering::Greater => weight.abs().max(f64::MIN_POSITIVE),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_shape_of_the_3_4_5_triangle() {
+        let shape = Shape::in_space([Vec3::zeros(), Vec3::x() * 4.0, Vec3::y() * 3.0]);
+        assert_eq!(shape.squared_lengths, [25.0, 9.0, 16.0]);
+        assert_eq!(shape.doubled_area, 12.0);
+        assert_eq!(shape.cotangents[0], 0.0);
+        assert!((shape.cotangents[1] - 4.0 / 3.0).abs() < 1e-15 && (shape.cotangents[2] - 0.75).abs() < 1e-15);
+    }
+
+    #[test]
+    fn both_shapes_agree() {
+        let p = [[0.5, -2.0], [3.25, 0.125], [-1.0, 7.0]];
+        let planar = Shape::in_plane([&p[0], &p[1], &p[2]]).unwrap();
+        let space = Shape::in_space(p.map(|[x, y]| Vec3::new(x, 0.0, y)));
+        for k in 0..3 {
+            assert!((planar.cotangents[k] - space.cotangents[k]).abs() < 1e-15);
+            assert!((planar.squared_lengths[k] - space.squared_lengths[k]).abs() < 1e-13);
+        }
+        assert!((planar.doubled_area - space.doubled_area).abs() < 1e-14);
+    }
+
+    #[test]
+    fn a_replaced_sign_keeps_the_magnitude_and_lets_a_nan_through() {
+        assert_eq!(with_sign(-1e-17, Ordering::Greater), 1e-17);
+        assert_eq!(with_sign(0.0, Ordering::Less), -f64::MIN_POSITIVE);
+        assert_eq!(with_sign(1e-17, Ordering::Equal), 0.0);
+        assert!(with_sign(f64::NAN, Ordering::Greater).is_nan());
+    }
+}

@@ -1,0 +1,230 @@
+//! Sparse matrices in compressed rows, over any [`Scalar`].
+
+use crate::scalar::Scalar;
+
+/// A sparse matrix in compressed rows; column indices ascend within each row and occur once.
+///
+/// An entry that is stored may be zero: what is stored is what the construction wrote, and a checker asks for the value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Csr<S = f64> {
+    rows: usize,
+    columns: usize,
+    offsets: Vec<usize>,
+    indices: Vec<usize>,
+    values: Vec<S>,
+}
+
+impl<S: Scalar> Csr<S> {
+    /// Builds from `(row, column, value)` triplets; triplets of the same place are added in the order given.
+    ///
+    /// Cost: O(n + nnz log(row length)).
+    ///
+    /// # Panics
+    /// If an index is out of range: callers check indices where they enter the program.
+    pub fn from_triplets(rows: usize, columns: usize, triplets: &[(usize, usize, S)]) -> Self {
+        let mut offsets = vec![0; rows + 1];
+        for &(i, j, _) in triplets {
+            assert!(i < rows && j < columns, "entry ({i}, {j}) outside a {rows}×{columns} matrix");
+            offsets[i + 1] += 1;
+        }
+        for i in 0..rows {
+            offsets[i + 1] += offsets[i];
+        }
+        let mut next = offsets.clone();
+        let mut order = vec![0; triplets.len()];
+        for (k, &(i, _, _)) in triplets.iter().enumerate() {
+            order[next[i]] = k;
+            next[i] += 1;
+        }
+        let mut matrix = Self { rows, columns, offsets: vec![0], indices: Vec::new(), values: Vec::new() };
+        for i in 0..rows {
+            let row = &mut order[offsets[i]..offsets[i + 1]];
+            row.sort_by_key(|&k| (triplets[k].1, k));
+            let start = matrix.indices.len();
+            for &k in row.iter() {
+                let (_, j, value) = &triplets[k];
+                if matrix.indices.len() > start && matrix.indices.last() == Some(j) {
+                    let last = matrix.values.len() - 1;
+                    matrix.values[last] = matrix.values[last].clone() + value.clone();
+                } else {
+                    matrix.indices.push(*j);
+                    matrix.values.push(value.clone());
+                }
+            }
+            matrix.offsets.push(matrix.indices.len());
+        }
+        matrix
+    }
+
+    /// A diagonal matrix.
+    pub fn diagonal(values: &[S]) -> Self {
+        let n = values.len();
+        Csr { rows: n, columns: n, offsets: (0..=n).collect(), indices: (0..n).collect(), values: values.to_vec() }
+    }
+
+    /// The number of rows.
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// The number of columns.
+    pub fn columns(&self) -> usize {
+        self.columns
+    }
+
+    /// The number of stored entries, zeros included.
+    pub fn stored(&self) -> usize {
+        self.values.len()
+    }
+
+    /// The stored entries of row `i`, columns ascending.
+    pub fn row(&self, i: usize) -> impl ExactSizeIterator<Item = (usize, &S)> + Clone {
+        let range = self.offsets[i]..self.offsets[i + 1];
+        self.indices[range.clone()].iter().copied().zip(&self.values[range])
+    }
+
+    /// All stored entries, row by row.
+    pub fn entries(&self) -> impl Iterator<Item = (usize, usize, &S)> {
+        (0..self.rows).flat_map(move |i| self.row(i).map(move |(j, v)| (i, j, v)))
+    }
+
+    /// The entry at `(i, j)`; `None` where nothing is stored.
+    pub fn get(&self, i: usize, j: usize) -> Option<&S> {
+        let range = self.offsets[i]..self.offsets[i + 1];
+        let at = self.indices[range.clone()].binary_search(&j).ok()?;
+        Some(&self.values[range.start + at])
+    }
+
+    /// The entry at `(i, j)`, zero where nothing is stored.
+    pub fn at(&self, i: usize, j: usize) -> S {
+        self.get(i, j).cloned().unwrap_or_else(S::zero)
+    }
+
+    /// The product `A x`, each row summed in column order.
+    pub fn mul(&self, x: &[S]) -> Vec<S> {
+        (0..self.rows).map(|i| self.row(i).fold(S::zero(), |sum, (j, v)| sum + v.clone() * x[j].clone())).collect()
+    }
+
+    /// The quadratic form `xᵀ A x`.
+    pub fn quadratic_form(&self, x: &[S]) -> S {
+        self.mul(x).into_iter().zip(x).fold(S::zero(), |sum, (y, x)| sum + y * x.clone())
+    }
+
+    /// The transpose.
+    pub fn transpose(&self) -> Self {
+        let mut offsets = vec![0; self.columns + 1];
+        for &j in &self.indices {
+            offsets[j + 1] += 1;
+        }
+        for j in 0..self.columns {
+            offsets[j + 1] += offsets[j];
+        }
+        let mut next = offsets.clone();
+        let mut order = vec![(0, 0); self.values.len()];
+        for i in 0..self.rows {
+            for k in self.offsets[i]..self.offsets[i + 1] {
+                let j = self.indices[k];
+                order[next[j]] = (i, k);
+                next[j] += 1;
+            }
+        }
+        Csr {
+            rows: self.columns,
+            columns: self.rows,
+            offsets,
+            indices: order.iter().map(|&(i, _)| i).collect(),
+            values: order.iter().map(|&(_, k)| self.values[k].clone()).collect(),
+        }
+    }
+
+    /// The same matrix with every stored value replaced by `f(i, j, value)`.
+    pub fn map<T: Scalar>(&self, mut f: impl FnMut(usize, usize, &S) -> T) -> Csr<T> {
+        Csr {
+            rows: self.rows,
+            columns: self.columns,
+            offsets: self.offsets.clone(),
+            indices: self.indices.clone(),
+            values: self.entries().map(|(i, j, v)| f(i, j, v)).collect(),
+        }
+    }
+
+    /// The sum `A + B` of two matrices of the same shape.
+    pub fn add(&self, other: &Self) -> Self {
+        let triplets: Vec<_> = self.entries().chain(other.entries()).map(|(i, j, v)| (i, j, v.clone())).collect();
+        Csr::from_triplets(self.rows, self.columns, &triplets)
+    }
+
+    /// The submatrix of the given rows and columns, renumbered in the order given.
+    pub fn submatrix(&self, rows: &[usize], columns: &[usize]) -> Self {
+        let mut place = vec![usize::MAX; self.columns];
+        for (at, &j) in columns.iter().enumerate() {
+            place[j] = at;
+        }
+        let mut triplets = Vec::new();
+        for (at, &i) in rows.iter().enumerate() {
+            triplets
+                .extend(self.row(i).filter(|&(j, _)| place[j] != usize::MAX).map(|(j, v)| (at, place[j], v.clone())));
+        }
+        Csr::from_triplets(rows.len(), columns.len(), &triplets)
+    }
+}
+
+impl Csr<f64> {
+    /// The row scales `s_i = Σ_k |A_ik|`.
+    pub fn row_scales(&self) -> Vec<f64> {
+        (0..self.rows).map(|i| self.row(i).map(|(_, v)| v.abs()).sum()).collect()
+    }
+
+    /// The symmetric part `½(A + Aᵀ)`.
+    pub fn symmetric_part(&self) -> Self {
+        self.add(&self.transpose()).map(|_, _, v| 0.5 * v)
+    }
+
+    /// The exact rational twin of the matrix; `None` if an entry is not finite.
+    pub fn exact(&self) -> Option<Csr<crate::scalar::Rational>> {
+        if self.values.iter().any(|v| !v.is_finite()) {
+            return None;
+        }
+        Some(self.map(|_, _, v| Scalar::exactly(*v).unwrap_or_else(Scalar::zero)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sample() -> Csr {
+        Csr::from_triplets(3, 4, &[(2, 1, 1.0), (0, 3, 2.0), (0, 0, 5.0), (2, 1, 0.5), (1, 2, -1.0)])
+    }
+
+    #[test]
+    fn triplets_of_one_place_are_added_and_columns_ascend() {
+        let a = sample();
+        assert_eq!(
+            a.entries().map(|(i, j, v)| (i, j, *v)).collect::<Vec<_>>(),
+            [(0, 0, 5.0), (0, 3, 2.0), (1, 2, -1.0), (2, 1, 1.5)]
+        );
+        assert_eq!(a.get(2, 1), Some(&1.5));
+        assert_eq!(a.get(2, 2), None);
+    }
+
+    #[test]
+    fn transposing_twice_gives_the_same_matrix() {
+        assert_eq!(sample().transpose().transpose(), sample());
+        assert_eq!(sample().transpose().at(3, 0), 2.0);
+    }
+
+    #[test]
+    fn the_product_agrees_with_the_dense_sum() {
+        let (a, x) = (sample(), [1.0, -2.0, 0.25, 3.0]);
+        let dense: Vec<f64> = (0..3).map(|i| (0..4).map(|j| a.at(i, j) * x[j]).sum()).collect();
+        assert_eq!(a.mul(&x), dense);
+    }
+
+    #[test]
+    fn a_submatrix_takes_rows_and_columns_in_the_order_given() {
+        let b = sample().submatrix(&[2, 0], &[3, 1]);
+        assert_eq!((b.rows(), b.columns()), (2, 2));
+        assert_eq!((b.at(0, 1), b.at(1, 0), b.at(1, 1)), (1.5, 2.0, 0.0));
+    }
+}

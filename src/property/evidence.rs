@@ -1,0 +1,382 @@
+//! Witnesses and certificates: a [`Statement`] and the [`Excerpt`] of matrix and mesh that it speaks of.
+//!
+//! Every `f64` is a rational number, so a statement about an excerpt is an exact statement, and
+//! [`recheck`](super::recheck) decides it without trusting the checker that made it. What a statement needs beyond its
+//! excerpt (that the excerpt was copied faithfully; a certificate that speaks of the whole matrix) is checked against the
+//! operator itself.
+
+use serde::{Deserialize, Serialize};
+
+/// A statement about an operator on a domain, with the part of both that it speaks of.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Evidence {
+    /// What is stated.
+    pub statement: Statement,
+    /// The part of matrix and mesh that decides it.
+    #[serde(default, skip_serializing_if = "Excerpt::is_empty")]
+    pub excerpt: Excerpt,
+}
+
+/// A part of a matrix and of a mesh, copied bit for bit.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Excerpt {
+    /// Whole rows of the stiffness matrix: every stored entry of each.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub rows: Vec<Row>,
+    /// Whole rows of the mass matrix.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub mass_rows: Vec<Row>,
+    /// Positions of vertices.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub positions: Vec<(usize, [f64; 3])>,
+    /// Faces with their corners. Where a statement speaks of the star of a vertex, all faces there.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub faces: Vec<(usize, Vec<usize>)>,
+    /// Edges, where the domain has no faces. Where a statement speaks of the star of a vertex, all edges there.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub edges: Vec<[usize; 2]>,
+}
+
+/// A row of a matrix: its number and all its stored entries, columns ascending.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Row {
+    /// The number of the row.
+    pub row: usize,
+    /// `(column, value)`.
+    pub entries: Vec<(usize, f64)>,
+}
+
+impl Excerpt {
+    /// Whether nothing is copied.
+    pub fn is_empty(&self) -> bool {
+        self.rows.is_empty()
+            && self.mass_rows.is_empty()
+            && self.positions.is_empty()
+            && self.faces.is_empty()
+            && self.edges.is_empty()
+    }
+}
+
+/// Which of the two matrices.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Which {
+    /// `L`.
+    Stiffness,
+    /// `M`.
+    Mass,
+}
+
+/// A corner opposite an edge.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Corner {
+    /// The vertex.
+    pub vertex: usize,
+    /// The angle there, in degrees, for a reader.
+    pub angle_deg: f64,
+}
+
+/// A vector by its non-zero components.
+pub type SparseVector = Vec<(usize, f64)>;
+
+/// What a witness or certificate states. `ω_ij = −L_ij`; `B` is the set of boundary vertices, `I` the rest.
+///
+/// "Rows …" says which whole rows the excerpt carries. Where it says "all rows" they are carried while the matrix has at
+/// most [`LARGEST_EXCERPT`] entries; above that the statement is checked against the operator.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Statement {
+    // ── witnesses ──────────────────────────────────────────────────────────────────────────────────────────────────
+    /// FIN: the entry is NaN or infinite. Nothing else is excerpted (JSON has no such numbers).
+    NotFinite {
+        /// Which matrix.
+        matrix: Which,
+        /// Row.
+        i: usize,
+        /// Column.
+        j: usize,
+        /// "NaN", "inf" or "-inf".
+        value: String,
+    },
+    /// LOC, and KER where the two belong to different components: `L_ij ≠ 0` although no face (no edge, on a graph) contains
+    /// both. Row i; all faces or edges at i.
+    FarEntry {
+        /// Row.
+        i: usize,
+        /// Column.
+        j: usize,
+        /// Distance from i to j in rings, vertices of one face being neighbours; absent where they are not connected.
+        rings: Option<usize>,
+    },
+    /// SYM: `|L_ij − L_ji| > threshold`. Rows i and j.
+    Asymmetry {
+        /// Row.
+        i: usize,
+        /// Column.
+        j: usize,
+        /// The threshold in force there.
+        threshold: f64,
+    },
+    /// NULL: `|Σ_j L_ij| > threshold`. Row i.
+    RowSum {
+        /// Row.
+        i: usize,
+        /// The threshold in force there.
+        threshold: f64,
+    },
+    /// KER: `|(Lx)_i| ≤ threshold·s_i` for every row, `s_i = Σ_k |L_ik|`, although `x` is not constant on the connected
+    /// component of vertices `a` and `b`, where its values differ by at least 1. All rows.
+    KernelVector {
+        /// The vector.
+        x: SparseVector,
+        /// A vertex.
+        a: usize,
+        /// A vertex of the same component.
+        b: usize,
+        /// The threshold in force, relative to the row scale.
+        threshold: f64,
+    },
+    /// POS, POS0: `ω_ij` is negative (`zero: false`) or zero (`zero: true`) on an edge. Row i, positions and faces at the edge.
+    Weight {
+        /// The smaller end of the edge; the larger one where only the weight of that direction is meant (L not symmetric).
+        i: usize,
+        /// The other end.
+        j: usize,
+        /// Whether the weight is zero rather than negative.
+        zero: bool,
+        /// The corners opposite the edge, on a triangle surface.
+        opposite: Vec<Corner>,
+    },
+    /// PSD: `xᵀLx < 0`, exactly. Rows of the support of x.
+    NegativeEnergy {
+        /// The direction.
+        x: SparseVector,
+    },
+    /// LIN, FLUX: `|Σ_j L_ij (x_j − x_i) − e| > threshold` for the coordinate `axis`. With `boundary: None` (LIN) `e = 0`; with
+    /// `boundary: Some([p, q])`, the previous and next vertex along the boundary with the surface to the left, `e` is the
+    /// component of `½ J (x_q − x_p)`, `J(a, b) = (b, −a)` in the plane of `axes`. Row i, positions of its stencil and of p, q.
+    Moment {
+        /// Row.
+        i: usize,
+        /// The coordinate: 0, 1 or 2.
+        axis: usize,
+        /// The two axes of the plane, positively oriented with the faces.
+        axes: [usize; 2],
+        /// Previous and next boundary vertex.
+        boundary: Option<[usize; 2]>,
+        /// The threshold in force there.
+        threshold: f64,
+    },
+    /// ENERGY: the entry `(axis, other)` of `½ Σ_{i≠j} ω_ij (x_i − x_j)(x_i − x_j)ᵀ` (with `trace: true`, its trace) differs from the area (`twice` the area for
+    /// the trace; 0 off the diagonal) by more than the threshold. All rows, positions, faces; `star` names the vertex
+    /// whose row has the largest share.
+    Energy {
+        /// First coordinate.
+        axis: usize,
+        /// Second coordinate.
+        other: usize,
+        /// Whether the trace over the three coordinates is meant.
+        trace: bool,
+        /// The energy found.
+        found: f64,
+        /// What it should be.
+        expected: f64,
+        /// The threshold in force.
+        threshold: f64,
+        /// The vertex with the largest share.
+        star: usize,
+    },
+    /// MAX-local: row i has a positive weight to `positive` and a negative weight to `negative`. Row i.
+    BothSigns {
+        /// Row.
+        i: usize,
+        /// Where `ω > 0`.
+        positive: usize,
+        /// Where `ω < 0`.
+        negative: usize,
+    },
+    /// MAX-local: every weight of row i is zero. Row i.
+    NoWeight {
+        /// Row.
+        i: usize,
+    },
+    /// MVP: in row i, `ω_ij / L_ii < 0` for this j; or, with `j = i`, `L_ii ≤ 0`. Row i.
+    NotConvex {
+        /// Row.
+        i: usize,
+        /// Column.
+        j: usize,
+    },
+    /// MAX-global: the solution `u` of `(Lu)_k = 0` at every vertex k outside `set`, with `u = 1` at `source` and 0 on the rest
+    /// of `set`, has `u_i < 0` (`low: true`) or `u_i > 1` (`low: false`). All rows outside `set`.
+    Overshoot {
+        /// The vertices where values are prescribed.
+        set: Vec<usize>,
+        /// The vertex of the set with value 1.
+        source: usize,
+        /// The vertex where the solution leaves [0, 1].
+        at: usize,
+        /// Its value there, approximately.
+        value: f64,
+        /// Whether it is below 0 rather than above 1.
+        low: bool,
+    },
+    /// MAX-global: `(Lx)_k = 0` exactly for every vertex k outside `set` although `x ≠ 0` vanishes on `set`: the Dirichlet
+    /// problem has no unique solution; or up to the rounding of the sum on the diagonal. All rows of the support's component.
+    Singular {
+        /// The vertices where values are prescribed.
+        set: Vec<usize>,
+        /// The vector.
+        x: SparseVector,
+    },
+    /// MAX-heat: entry `(at, source)` of `(M + tL)⁻¹ M` is negative. All rows, all mass rows.
+    HeatLoss {
+        /// The time step.
+        t: f64,
+        /// Where the heat was.
+        source: usize,
+        /// Where the temperature falls below zero.
+        at: usize,
+        /// The value, approximately.
+        value: f64,
+    },
+    /// MASS: the total `1ᵀM1` differs from the area by more than the threshold. All mass rows, positions, faces.
+    MassTotal {
+        /// The total found.
+        found: f64,
+        /// The area.
+        expected: f64,
+        /// The threshold in force.
+        threshold: f64,
+    },
+    /// MASS: `|M_ij − M_ji| > threshold`. Mass rows i and j.
+    MassAsymmetry {
+        /// Row.
+        i: usize,
+        /// Column.
+        j: usize,
+        /// The threshold in force there.
+        threshold: f64,
+    },
+    /// MASS: `xᵀMx ≤ 0` for a vector `x ≠ 0`. Mass rows of the support.
+    MassNotPositive {
+        /// The direction.
+        x: SparseVector,
+    },
+    /// MASS: the share `Σ_j M_ij` of vertex i is outside `[lower, upper]`, the bounds that its star sets. Mass row i, all
+    /// faces at i with their positions.
+    MassShare {
+        /// The vertex.
+        i: usize,
+        /// The lower bound.
+        lower: f64,
+        /// The upper bound.
+        upper: f64,
+    },
+    /// PERM, RIGID, SCALE, ISO, REACH, UNION: the entry `(i, j)` of the operator built on the transformed domain, brought back
+    /// to the numbering and scale of the original, differs by more than the threshold.
+    Changed {
+        /// The transformation, in words that say how to repeat it.
+        transformation: String,
+        /// Which matrix.
+        matrix: Which,
+        /// Row.
+        i: usize,
+        /// Column.
+        j: usize,
+        /// The entry on the original domain.
+        before: f64,
+        /// The entry on the transformed domain.
+        after: f64,
+        /// The threshold in force.
+        threshold: f64,
+    },
+    // ── certificates ───────────────────────────────────────────────────────────────────────────────────────────────
+    /// Every one of `checked` places was looked at and none violates the property; the worst is at `worst`.
+    Scan {
+        /// How many places.
+        checked: usize,
+        /// The place with the largest margin: a vertex `[i]` or a pair `[i, j]`.
+        worst: Vec<usize>,
+    },
+    /// PSD: `L` is symmetric up to rounding with vanishing row sums and no negative weight, so
+    /// `xᵀLx = ½ Σ ω_ij (x_i − x_j)² ≥ 0`.
+    SumOfSquares,
+    /// PSD: `½(L + Lᵀ) + shift·diag(s)` has only positive pivots, so no eigenvalue relative to `diag(s)` is below `−shift`
+    /// by more than the factorisation's rounding, which `shift` exceeds.
+    ShiftedFactor {
+        /// The shift, relative to the row scales `s_i = Σ_k |L_ik|`.
+        shift: f64,
+        /// The smallest pivot relative to its row scale.
+        smallest_pivot: f64,
+    },
+    /// KER: `L ± shift·diag(s)` have 0 and `kernel` negative pivots: exactly `kernel` eigenvalues relative to `diag(s)` lie in
+    /// `(−shift, shift)`. Rows and columns without entries are left out of the factorisations and counted as kernel.
+    InertiaCount {
+        /// The shift.
+        shift: f64,
+        /// The dimension of the kernel.
+        kernel: usize,
+    },
+    /// KER: no weight is negative and row sums vanish up to rounding, so that −L generates a random walk; its harmonic
+    /// functions are as many as its closed classes: classes of vertices that lead to each other along positive weights
+    /// (i leads to j where `ω_ij > 0`) and to no other vertex. There are `kernel` of them, an empty row counting as one.
+    ClosedClasses {
+        /// The dimension of the kernel.
+        kernel: usize,
+    },
+    /// KER: the smallest singular value that is not of the kernel, and the largest that is, relative to the largest.
+    SingularValues {
+        /// The dimension of the kernel.
+        kernel: usize,
+        /// The largest singular value counted as zero.
+        zero: f64,
+        /// The smallest one that is not.
+        positive: f64,
+    },
+    /// MAX-global: no interior row has a negative weight, and from every interior vertex a chain of positive weights leads to
+    /// the set: `L_II` is an M-matrix. Where the domain is closed, from every vertex of a component to every other one, so
+    /// that the same is true of every set that meets each component; `set` is then that of the largest set drawn.
+    /// MAX-heat: with `set: 0`; no row has a negative weight, the mass is lumped and positive, and every row sum of `M + tL` is
+    /// positive for each t stated, so that it is an M-matrix.
+    SignPattern {
+        /// How many vertices have prescribed values.
+        set: usize,
+    },
+    /// MAX-global, MAX-heat: all `columns` of the solution were computed; the smallest entry is `smallest`, the error of each
+    /// entry at most `error`.
+    Solved {
+        /// How many right-hand sides.
+        columns: usize,
+        /// The smallest entry found.
+        smallest: f64,
+        /// The bound on its error.
+        error: f64,
+    },
+    /// A relation between constructions: `entries` entries were compared, the worst differs by `worst` thresholds.
+    Compared {
+        /// The transformations, in words.
+        transformations: Vec<String>,
+        /// How many entries.
+        entries: usize,
+    },
+}
+
+/// The largest number of matrix entries that a statement about all rows carries with it.
+pub const LARGEST_EXCERPT: usize = 120;
+
+impl Evidence {
+    /// A statement with an excerpt.
+    pub fn new(statement: Statement, excerpt: Excerpt) -> Self {
+        Evidence { statement, excerpt }
+    }
+
+    /// A statement that needs none.
+    pub fn bare(statement: Statement) -> Self {
+        Evidence { statement, excerpt: Excerpt::default() }
+    }
+}

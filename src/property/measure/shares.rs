@@ -1,0 +1,155 @@
+//! How the area of a surface is shared out among its vertices: the shares of the known mass matrices, and the bounds of any.
+//!
+//! # Definition
+//! In a triangle of area A with angles α, β, γ the corner at α gets `A/3` (barycentric; also the row sum of the consistent
+//! mass, `A/6 + 2·A/12`), or the signed circumcentric part `⅛ (b² cot β + c² cot γ) = ¼ (1 + cot β cot γ) A`, or that part in
+//! triangles without an obtuse angle and `A/2` at, `A/4` beside an obtuse one (mixed).
+//!
+//! # Bounds
+//! Without an obtuse angle `cot β cot γ` lies in [0, 1], so the circumcentric part lies in [A/4, A/2]; so does the mixed part
+//! always, and A/3. With `f = ¼ (1 + cot β cot γ)` every known share of a triangle is therefore in
+//! `[min(¼, f), max(½, f)]·A`, and the share of a vertex between the sums of these over its star.
+
+use super::compensated::Sum;
+use super::condition::Shape;
+use super::tolerance::{Scales, Threshold, UNIT_ROUNDOFF};
+use crate::domain::geometry::orient3d;
+use crate::domain::{Surface, geometry};
+
+/// The shares of one vertex.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Share {
+    /// The area of the star.
+    pub star: f64,
+    /// A third of it.
+    pub third: f64,
+    /// The signed circumcentric area.
+    pub voronoi: f64,
+    /// The mixed area of Meyer et al.
+    pub mixed: f64,
+    /// No known mass gives less …
+    pub lower: f64,
+    /// … and none more.
+    pub upper: f64,
+    /// What a difference of shares is measured against.
+    pub threshold: Threshold,
+    /// The same for circumcentric shares, whose parts cancel.
+    pub voronoi_threshold: Threshold,
+}
+
+/// The signed circumcentric part of a corner.
+pub(crate) fn voronoi(shape: &Shape, corner: usize) -> f64 {
+    let (b, c) = ((corner + 1) % 3, (corner + 2) % 3);
+    0.125 * (shape.squared_length[b] * shape.cotangent[b] + shape.squared_length[c] * shape.cotangent[c])
+}
+
+/// The mixed part of a corner.
+fn mixed(shape: &Shape, corner: usize) -> f64 {
+    match shape.cotangent.iter().position(|&cot| cot < 0.0) {
+        Some(obtuse) if obtuse == corner => 0.5 * shape.area,
+        Some(_) => 0.25 * shape.area,
+        None => voronoi(shape, corner),
+    }
+}
+
+/// The shares of all vertices. Degenerate faces have none; of a polygon only the area of the star is known, and a share
+/// between nothing and that.
+pub(crate) fn of(surface: &Surface, scales: &Scales) -> Vec<Share> {
+    let mut shares = vec![Share::default(); surface.positions().len()];
+    let mut circumscribed = vec![0.0; shares.len()];
+    for (face, corners) in surface.faces().iter().enumerate() {
+        let shape = Shape::of_face(surface, face);
+        for (corner, &v) in corners.iter().enumerate() {
+            let s = &mut shares[v];
+            let Some(shape) = &shape else {
+                if corners.len() > 3 {
+                    s.star += surface.face_area(face);
+                    s.upper += surface.face_area(face);
+                }
+                continue;
+            };
+            let part = voronoi(shape, corner);
+            s.star += shape.area;
+            s.third += shape.area / 3.0;
+            s.voronoi += part;
+            s.mixed += mixed(shape, corner);
+            s.lower += part.min(0.25 * shape.area);
+            s.upper += part.max(0.5 * shape.area);
+            circumscribed[v] += shape.squared_length[corner] * shape.inverse_sine[corner].powi(2);
+        }
+    }
+    for (i, s) in shares.iter_mut().enumerate() {
+        let q = scales.condition(i);
+        s.threshold = Threshold::over(s.star, surface.topology().star(i).len(), q);
+        // ⅛ b² cot β is off by ⅛ b²·8u/sin² β = u D², D the circumdiameter, in each of two terms; as much again for ours.
+        let explained = 4.0 * UNIT_ROUNDOFF * circumscribed[i];
+        s.voronoi_threshold = s.threshold.plus(Threshold { explained, defect: 4.0 * q * explained });
+    }
+    shares
+}
+
+/// The total area, and what a total is measured against as far as the area's own rounding goes.
+pub(crate) fn area(surface: &Surface) -> (f64, Threshold) {
+    let mut total = Sum::default();
+    let mut threshold = Threshold::NONE;
+    for face in 0..surface.faces().len() {
+        let shape = Shape::of_face(surface, face);
+        let corners = surface.faces()[face].len();
+        let area = match shape {
+            Some(shape) => shape.area,
+            None if corners == 3 => 0.0,
+            None => surface.face_area(face),
+        };
+        total.add(area);
+        threshold = threshold.plus(Threshold::over(area, corners, shape.map_or(1.0, |s| s.condition())));
+    }
+    (total.value(), threshold)
+}
+
+/// Whether every face lies in a plane. Exact.
+pub(crate) fn has_planar_faces(surface: &Surface) -> bool {
+    let at = |v: usize| surface.positions()[v];
+    surface.faces().iter().filter(|f| f.len() > 3).all(|f| {
+        let fan = f[1..].windows(2).map(|w| [at(f[0]), at(w[0]), at(w[1])]);
+        let proper = fan.into_iter().find(|&[a, b, c]| !geometry::collinear(a, b, c));
+        proper.is_none_or(|[a, b, c]| f.iter().all(|&v| orient3d(a, b, c, at(v)).is_eq()))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::domain::geometry::Vec3;
+
+    fn shape(apex: [f64; 2]) -> Shape {
+        Shape::of([Vec3::zeros(), Vec3::x(), Vec3::new(apex[0], apex[1], 0.0)]).unwrap()
+    }
+
+    #[test]
+    fn the_parts_of_a_triangle_add_up_to_its_area() {
+        for apex in [[0.5, 0.8], [0.0, 1.0], [-0.7, 0.3], [0.5, 0.01]] {
+            let s = shape(apex);
+            let total = |part: &dyn Fn(usize) -> f64| (0..3).map(part).sum::<f64>();
+            assert!((total(&|c| voronoi(&s, c)) / s.area - 1.0).abs() < 1e-9, "{apex:?}");
+            assert!((total(&|c| mixed(&s, c)) / s.area - 1.0).abs() < 1e-12, "{apex:?}");
+        }
+    }
+
+    #[test]
+    fn the_circumcentric_part_has_its_closed_form_and_the_mixed_part_its_bounds() {
+        let mut state = 1_u64;
+        let mut random = || {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (state >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        for _ in 0..1000 {
+            let s = shape([3.0 * random() - 1.0, 0.05 + random()]);
+            for c in 0..3 {
+                let f = 0.25 * (1.0 + s.cotangent[(c + 1) % 3] * s.cotangent[(c + 2) % 3]);
+                assert!((voronoi(&s, c) - f * s.area).abs() < 1e-12 * (1.0 + f.abs()));
+                let relative = mixed(&s, c) / s.area;
+                assert!((0.25 - 1e-12..=0.5 + 1e-12).contains(&relative));
+            }
+        }
+    }
+}

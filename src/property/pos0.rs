@@ -1,0 +1,32 @@
+//! POS0: no weight on an interior edge is negative.
+//!
+//! # Definition
+//! `ω_ij = −L_ij ≥ 0` on every interior edge: the weak form of [POS](super::pos). A weight that rounding cannot tell from
+//! zero counts among the `zeros`.
+
+use super::measure::weights::{Class, Weights, decide, weak};
+use super::{Property, Question, Trial, Verdict};
+
+/// The catalogue entry.
+pub static ENTRY: Property = Property {
+    id: "POS0",
+    name: "non-negative weights",
+    statement: "ω_ij ≥ 0 on every interior edge",
+    sources: &["wardetzky2007", "bobenko-springborn2007"],
+    question: Question::Operator(check),
+};
+
+/// Worst first: a negative weight, one that is open, a zero.
+const ORDER: [Class; 4] = [Class::Violation, Class::Open, Class::Zero, Class::Fine];
+
+fn check(trial: &Trial) -> Verdict {
+    if let Some(verdict) = trial.unless_finite() {
+        return verdict;
+    }
+    let weights = Weights::of(trial);
+    if weights.interior.is_empty() {
+        return Verdict::not_applicable("there is no interior edge");
+    }
+    let verdict = decide(trial, &weights.interior, weights.literal, weak, ORDER, &[Class::Violation]);
+    weights.notes().into_iter().fold(verdict, Verdict::with_note)
+}

@@ -1,0 +1,86 @@
+//! The claims of the literature: a table, then a section each with a permanent anchor.
+
+use std::collections::BTreeSet;
+
+use maud::{Markup, html};
+
+use super::super::number::count;
+use super::{Page, replay, scroll};
+use crate::record::{ClaimLine, ClaimOutcome, TestLine};
+
+/// The section.
+pub(super) fn section(page: &Page) -> Markup {
+    let claims = &page.record.claims;
+    html! {
+        section #claims {
+            h2 { "Claims" }
+            @if claims.is_empty() { p { "The suite tests no claim of the literature." } }
+            @else {
+                (scroll("Claims", html! {
+                    table.list.sortable {
+                        thead { tr { th { "claim" } th { "outcome" } th { "expected" } th { "statement" } } }
+                        tbody {
+                            @for c in claims {
+                                tr {
+                                    td { a href={ "#" (page.anchors.claim(&c.id)) } { (c.id) } }
+                                    td { (outcome(c)) }
+                                    td { @if c.is_unexpected() { strong.loud { (c.expected) } } @else { "as expected" } }
+                                    td.prose { (c.statement) }
+                                }
+                            }
+                        }
+                    }
+                }))
+                @for c in claims { (claim(page, c)) }
+            }
+        }
+    }
+}
+
+fn claim(page: &Page, c: &ClaimLine) -> Markup {
+    let commands: BTreeSet<&String> = c.tests.iter().filter_map(|t| t.replay.as_ref()).collect();
+    html! {
+        article.claim id=(page.anchors.claim(&c.id)) {
+            h3 { a.self href={ "#" (page.anchors.claim(&c.id)) } { (c.id) } " " (outcome(c)) }
+            blockquote { p { (c.statement) } }
+            @if let Some(amendment) = &c.amendment { p { b { "Amended: " } (amendment) } }
+            p.meta {
+                "Source: " (c.source) ". "
+                @if c.is_unexpected() { strong.loud { "Expected: " (c.expected) "." } } @else { "This is the expected outcome." }
+            }
+            @if c.tests.is_empty() { p { "Nothing was tested." } }
+            @else {
+                (scroll(&format!("Tests of {}", c.id), html! {
+                    table.list {
+                        thead { tr { th { "test" } th { "form" } th { "in favour" } th.n { "decided" } th.n { "open" } th { "level" } th { "finding" } } }
+                        tbody { @for t in &c.tests { (test(t)) } }
+                    }
+                }))
+                @for command in commands { (replay(command)) }
+            }
+        }
+    }
+}
+
+fn test(t: &TestLine) -> Markup {
+    html! {
+        tr {
+            td.prose { (t.question) }
+            td { (t.form) }
+            td class=(if t.agrees { "holds" } else { "fails" }) { (if t.agrees { "✓ yes" } else { "✗ no" }) }
+            td.n { (count(t.decided)) }
+            td.n { (count(t.open)) }
+            td { (t.level) }
+            td.prose { (t.finding) }
+        }
+    }
+}
+
+fn outcome(c: &ClaimLine) -> Markup {
+    let class = match c.outcome {
+        ClaimOutcome::Confirmed => "holds",
+        ClaimOutcome::Amended | ClaimOutcome::Refuted => "fails",
+        ClaimOutcome::Inconclusive | ClaimOutcome::Empty => "undecided",
+    };
+    html! { span class={ "key " (class) } { (c.outcome) } }
+}

@@ -1,0 +1,117 @@
+//! One self-contained page: it works from `file://` without a request, reads without JavaScript and without a style sheet,
+//! on light and dark screens, narrow ones, and on paper. A file for each section.
+
+mod anchor;
+mod claims;
+mod evidence;
+mod exhibits;
+mod header;
+mod matrix;
+mod provenance;
+mod tables;
+
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+use super::plot::charts;
+use super::{File, Options, RenderError};
+use crate::record::{Index, Record};
+use anchor::Anchors;
+
+/// What every section needs.
+struct Page<'a> {
+    record: &'a Record,
+    index: Index<'a>,
+    options: &'a Options,
+    anchors: Anchors,
+}
+
+/// Nothing is ever loaded: not even a script of this page could.
+const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
+
+/// The sections, by anchor and title, as the navigation lists them.
+const SECTIONS: [(&str, &str); 8] = [
+    ("taxonomy", "Taxonomy"),
+    ("claims", "Claims"),
+    ("exhibits", "Exhibits"),
+    ("evidence", "Evidence"),
+    ("plots", "Plots"),
+    ("domains", "Domains"),
+    ("provenance", "Provenance"),
+    ("sources", "Sources"),
+];
+
+/// The page. `files` are the other files of the report: small tables are put into the page as downloads, large ones are
+/// linked where they lie, beside it.
+///
+/// # Errors
+/// What a chart refuses.
+pub fn html(record: &Record, options: &Options, files: &[File]) -> Result<String, RenderError> {
+    let index = record.index();
+    let anchors = Anchors::of(&index, record.claims.iter().map(|c| c.id.as_str()));
+    let page = Page { record, index, options, anchors };
+    let plots = plots(record)?;
+    let body = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta name="color-scheme" content="light dark";
+                meta http-equiv="Content-Security-Policy" content=(POLICY);
+                link rel="icon" href="data:,";
+                title { "Discrete Laplacians on trial: " (record.header.suite) }
+                style { (PreEscaped(include_str!("page.css"))) }
+            }
+            body {
+                a.skip href="#taxonomy" { "Skip to the taxonomy" }
+                (header::header(&page))
+                nav aria-label="Sections" {
+                    @for (id, title) in SECTIONS { a href={ "#" (id) } { (title) } " " }
+                }
+                main {
+                    (matrix::section(&page))
+                    (tables::unexpected(&page))
+                    (claims::section(&page))
+                    (exhibits::section(&page))
+                    (evidence::section(&page))
+                    (plots)
+                    (tables::domains(&page))
+                    (provenance::section(&page, files))
+                    (provenance::sources(&page))
+                }
+                script { (PreEscaped(include_str!("page.js"))) }
+            }
+        }
+    };
+    Ok(body.into_string())
+}
+
+fn plots(record: &Record) -> Result<Markup, RenderError> {
+    let mut figures = Vec::new();
+    for chart in charts(record) {
+        figures.push((chart.svg()?, chart));
+    }
+    Ok(html! {
+        section #plots {
+            h2 { "Plots" }
+            @if figures.is_empty() { p { "The record has no numbers to plot." } }
+            @for (svg, chart) in &figures {
+                figure.plot id={ "plot-" (chart.id) } {
+                    h3 { (chart.title) }
+                    div.scroll { (PreEscaped(svg)) }
+                    figcaption { (chart.caption) }
+                }
+            }
+        }
+    })
+}
+
+/// A box that scrolls sideways on its own, so that the page never does.
+fn scroll(label: &str, content: Markup) -> Markup {
+    html! { div.scroll role="region" aria-label=(label) tabindex="0" { (content) } }
+}
+
+/// A command to copy.
+fn replay(command: &str) -> Markup {
+    html! { pre.replay { code { (command) } } }
+}
