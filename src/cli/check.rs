@@ -28,8 +28,8 @@ Examples:
   lapjury check --domain 'random-delaunay:seed=7 | flip:count=5' --laplacian cotan --property POS
 
 The sign of a matrix is read off its diagonal and said; a declared one is checked. A matrix fails nothing that was not
-promised: name what it should hold with --promises, and the command ends with 1 where it does not, with 3 where that could
-not be decided.")]
+promised: name what it should hold with --promises, and the command ends with 1 where it does not, with 3 where rounding leaves
+that open, with 4 where none of the promises says anything on this domain (LIN on a curved surface). Any promise implies FIN.")]
 pub(super) struct Check {
     /// A mesh file: off, obj, ply, stl, xyz, mesh, or a graph as mtx; .gz as well
     #[arg(long, value_name = "FILE", required_unless_present = "domain", conflicts_with = "domain")]
@@ -109,8 +109,10 @@ impl Check {
         }
         Ok(if differs || decided.iter().any(Decided::is_unexpected) {
             Exit::Unexpected
-        } else if decided.iter().any(|d| self.promises(d.property) && !d.is_decided()) {
+        } else if self.has_promised(&decided, |status| status == Status::Undecided) {
             Exit::Incomplete
+        } else if !self.promises.is_empty() && !self.has_promised(&decided, |status| status != Status::NotApplicable) {
+            Exit::Nothing
         } else {
             Exit::AsExpected
         })
@@ -138,9 +140,14 @@ impl Check {
         Ok(property::ALL.iter().copied().filter(|p| asked(p) || self.promises(p)).collect())
     }
 
-    /// Whether the command line promises the property.
+    /// Whether the command line promises the property: by name, or because whatever is promised takes finite entries for granted.
     fn promises(&self, property: &Property) -> bool {
-        self.promises.iter().any(|id| id == property.id)
+        self.promises.iter().any(|id| id == property.id) || property.id == "FIN" && !self.promises.is_empty()
+    }
+
+    /// Whether a property promised by name has such a status.
+    fn has_promised(&self, decided: &[Decided], such: impl Fn(Status) -> bool) -> bool {
+        decided.iter().any(|d| self.promises.iter().any(|id| id == d.property.id) && such(d.verdict.status()))
     }
 
     /// The built-in operator, if one is named.
@@ -185,9 +192,5 @@ impl Check {
 impl Decided {
     fn is_unexpected(&self) -> bool {
         matches!(self.recheck, Recheck::Refused(_)) || !cases::as_expected(self.promised, &self.verdict)
-    }
-
-    fn is_decided(&self) -> bool {
-        matches!(self.verdict.status(), Status::Holds | Status::Fails)
     }
 }

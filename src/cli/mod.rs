@@ -32,9 +32,9 @@ pub enum Exit {
     Unexpected = 1,
     /// The command or its input cannot be understood.
     Usage = 2,
-    /// The result is incomplete: a domain could not be made, or what was promised on the command line was not decided.
+    /// The result is incomplete: a domain could not be made, or rounding leaves open what was promised on the command line.
     Incomplete = 3,
-    /// Nothing was decided: no cell was selected, a claim tested nothing, no counterexample is known.
+    /// Nothing was decided: no cell was selected, a claim or a promise tested nothing, no counterexample is known.
     Nothing = 4,
 }
 

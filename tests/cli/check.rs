@@ -102,11 +102,15 @@ fn the_properties_asked_are_decided_and_no_other() {
         verdicts.iter().map(|v| v["property"].as_str().unwrap().to_string()).collect::<Vec<_>>()
     };
     assert_eq!(check(&["--property", "PSD,SYM"]), ["SYM", "PSD"], "in the order of the tables");
-    assert_eq!(check(&["--property", "SYM", "--promises", "NULL"]), ["SYM", "NULL"], "a promise is not left undecided");
+    assert_eq!(
+        check(&["--property", "SYM", "--promises", "NULL"]),
+        ["FIN", "SYM", "NULL"],
+        "a promise is decided, and implies FIN"
+    );
 }
 
 #[test]
-fn a_broken_promise_ends_with_1_and_an_undecided_one_with_3() {
+fn a_broken_promise_ends_with_1_and_one_that_says_nothing_with_4() {
     let check = |promise: &str, domain: &str| {
         lapjury(&["check", "--domain", domain, "--laplacian", "mean-value", "--property", "LOC", "--promises", promise])
     };
@@ -117,7 +121,8 @@ fn a_broken_promise_ends_with_1_and_an_undecided_one_with_3() {
     );
     check("LOC,POS", "grid:nx=3,ny=3").ends_with(0);
     // A closed surface is not flat: it has no star for LIN to be asked about.
-    check("LIN", "icosphere:levels=1").ends_with(3);
+    check("LIN", "icosphere:levels=1").ends_with(4);
+    check("LIN,POS", "icosphere:levels=1").ends_with(0);
     let unasked = ["check", "--domain", "grid:nx=3,ny=3", "--laplacian", "mean-value", "--property", "SYM"];
     assert!(lapjury(&unasked).ends_with(0).out.contains("SYM          fails"), "an expected failure is knowledge");
 }

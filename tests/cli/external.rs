@@ -103,7 +103,30 @@ fn one_nan_fails_fin_and_nothing_else_can_be_asked() {
     }
     assert_eq!(json["verdicts"][0]["witness"]["statement"]["value"], "NaN");
     bench.check(&broken, &["--promises", "FIN"]).ends_with(1);
-    bench.check(&broken, &["--promises", "SYM"]).ends_with(3);
+    // Whatever is promised takes finite entries for granted.
+    bench.check(&broken, &["--promises", "SYM"]).ends_with(1);
+}
+
+#[test]
+fn what_rounding_leaves_open_of_a_promise_ends_with_3() {
+    // Between what rounding explains of two entries with opposite angles of 45°, 40u, and what only a defect does, 40√2 · 4u.
+    let open = stiffness(1.0).replacen("5 1 -1", "5 1 -1.00000000000001", 1);
+    Bench::new().check(&open, &["--promises", "SYM"]).ends_with(3);
+    let beyond = stiffness(1.0).replacen("5 1 -1", "5 1 -1.0000000000001", 1);
+    Bench::new().check(&beyond, &["--promises", "SYM"]).ends_with(1);
+}
+
+#[test]
+fn a_promise_that_says_nothing_on_the_mesh_is_not_broken() {
+    let bench = Bench::new();
+    let json = bench.check(&stiffness(1.0), &["--promises", "FLUX,SYM,MASS", "--format", "json"]).json();
+    let status = |id: &str| {
+        let verdicts = json["verdicts"].as_array().unwrap();
+        verdicts.iter().find(|v| v["property"] == id).map(|v| v["status"].clone()).unwrap()
+    };
+    // No mass was given.
+    assert_eq!((status("MASS"), status("SYM")), ("not-applicable".into(), "holds".into()));
+    bench.check(&stiffness(1.0), &["--promises", "FLUX,SYM,MASS"]).ends_with(0);
 }
 
 #[test]
