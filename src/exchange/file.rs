@@ -1,5 +1,6 @@
 //! From a path to a format and to decompressed bytes.
 
+use std::borrow::Cow;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
@@ -10,6 +11,13 @@ use super::error::ReadError;
 
 /// No file is read beyond this length, decompressed: a guard against compressed bombs and endless devices.
 const LONGEST: u64 = 1 << 32;
+
+/// Compressed content is read up to this many times the compressed length. Text of numbers shrinks to a third or a tenth, a
+/// regular grid to a fortieth; the most that the format can do is 1032, and only a bomb comes near.
+const EXPANSION: u64 = 200;
+
+/// Compressed content up to this length is read whatever its compressed length.
+const SMALL: u64 = 1 << 24;
 
 /// The formats a domain can be read from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -98,25 +106,49 @@ fn extension(path: &Path) -> String {
 pub(super) fn read(path: &Path) -> Result<Vec<u8>, ReadError> {
     let name = path.display().to_string();
     let open = |e: std::io::Error| ReadError::Open { file: name.clone(), why: e.to_string() };
-    let content = limited(File::open(path).map_err(open)?, &name, open)?;
-    let broken = |why: String| ReadError::Compressed { file: name.clone(), why };
-    if content.starts_with(&[0x1f, 0x8b]) {
-        return limited(MultiGzDecoder::new(content.as_slice()), &name, |e| match e.kind() {
-            std::io::ErrorKind::UnexpectedEof => broken("it ends too early".into()),
-            _ => broken(e.to_string()),
-        });
+    let content = limited(File::open(path).map_err(open)?, &name, LONGEST, open)?;
+    if is_compressed(&content) {
+        return decompress(&name, &content);
     }
     if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("gz")) {
-        return Err(broken("it does not begin with the signature 1f 8b".into()));
+        return Err(ReadError::Compressed { file: name, why: "it does not begin with the signature 1f 8b".into() });
     }
     Ok(content)
 }
 
-fn limited(source: impl Read, name: &str, refuse: impl Fn(std::io::Error) -> ReadError) -> Result<Vec<u8>, ReadError> {
+/// The content of a file that is in memory already, decompressed if it begins with the signature of gzip; `name` is what
+/// errors call it. What [`parse_domain`](super::parse_domain) and [`parse_matrix`](super::parse_matrix) take.
+///
+/// # Errors
+/// A gzip file that is damaged, or whose content is longer than any reader would take: beyond 4 GiB, or beyond 16 MiB and
+/// 200 times the compressed length, which no mesh or matrix comes near.
+pub fn unpack<'a>(name: &str, bytes: &'a [u8]) -> Result<Cow<'a, [u8]>, ReadError> {
+    if is_compressed(bytes) { decompress(name, bytes).map(Cow::Owned) } else { Ok(Cow::Borrowed(bytes)) }
+}
+
+fn is_compressed(content: &[u8]) -> bool {
+    content.starts_with(&[0x1f, 0x8b])
+}
+
+fn decompress(name: &str, bytes: &[u8]) -> Result<Vec<u8>, ReadError> {
+    let limit = (bytes.len() as u64).saturating_mul(EXPANSION).clamp(SMALL, LONGEST);
+    let broken = |why: String| ReadError::Compressed { file: name.to_string(), why };
+    limited(MultiGzDecoder::new(bytes), name, limit, |e| match e.kind() {
+        std::io::ErrorKind::UnexpectedEof => broken("it ends too early".into()),
+        _ => broken(e.to_string()),
+    })
+}
+
+fn limited(
+    source: impl Read,
+    name: &str,
+    limit: u64,
+    refuse: impl Fn(std::io::Error) -> ReadError,
+) -> Result<Vec<u8>, ReadError> {
     let mut content = Vec::new();
-    let length = source.take(LONGEST + 1).read_to_end(&mut content).map_err(refuse)?;
-    if length as u64 > LONGEST {
-        return Err(ReadError::TooLong { file: name.to_string(), limit: LONGEST });
+    let length = source.take(limit + 1).read_to_end(&mut content).map_err(refuse)?;
+    if length as u64 > limit {
+        return Err(ReadError::TooLong { file: name.to_string(), limit });
     }
     Ok(content)
 }

@@ -42,7 +42,7 @@ mod xyz;
 use std::path::Path;
 
 pub use error::{Place, Position, ReadError};
-pub use file::Format;
+pub use file::{Format, unpack};
 pub use graph::write_graph;
 pub use matrix_market::{MatrixFile, parse_matrix, write_matrix_market};
 pub use medit::write_medit;

@@ -1,0 +1,28 @@
+//! What is allocated, by the whole process: nothing else may run meanwhile.
+
+use std::alloc::System;
+use std::hint::black_box;
+
+use cap::Cap;
+
+#[global_allocator]
+static ALLOCATOR: Cap<System> = Cap::new(System, usize::MAX);
+
+/// The bytes that `f` asks for in all, freed ones counted again; no less than what it holds at any time.
+pub fn requested<T>(f: impl FnOnce() -> T) -> (T, usize) {
+    let before = ALLOCATOR.total_allocated();
+    let result = f();
+    (result, ALLOCATOR.total_allocated() - before)
+}
+
+/// The most that `f` holds at any time. The allocator remembers the highest mark of the process only: memory that is asked
+/// for and never touched lifts the level to that mark first.
+pub fn peak<T>(f: impl FnOnce() -> T) -> (T, usize) {
+    let gap = ALLOCATOR.max_allocated().saturating_sub(ALLOCATOR.allocated());
+    let ballast = black_box(Vec::<u8>::with_capacity(gap));
+    let before = ALLOCATOR.allocated();
+    let result = f();
+    let peak = ALLOCATOR.max_allocated().saturating_sub(before);
+    drop(black_box(ballast));
+    (result, peak)
+}
