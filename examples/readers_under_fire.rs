@@ -11,7 +11,7 @@ mod fire;
 
 use std::cell::Cell;
 use std::process::ExitCode;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use fire::judge::{self, Cost};
 use fire::{Reader, input, numbers};
@@ -35,7 +35,9 @@ fn main() -> ExitCode {
         return ExitCode::from(2);
     };
     let chosen = |reader: &Reader| words.len() < 3 || words[2..].iter().any(|w| w == reader.name());
-    println!("| reader | inputs | accepted | refused | bytes: mean, most | memory: bytes, × length | slowest | total |");
+    println!(
+        "| reader | inputs | accepted | refused | bytes: mean, most | memory: bytes, × length | slowest | total |"
+    );
     println!("| --- | --: | --: | --: | --: | --: | --: | --: |");
     for reader in Reader::ALL.into_iter().filter(chosen) {
         let start = Instant::now();
@@ -55,7 +57,8 @@ fn main() -> ExitCode {
             ),
             Err((why, bytes)) => {
                 let path = std::env::temp_dir().join(format!("under-fire-{}.bin", reader.name()));
-                let saved = std::fs::write(&path, &bytes).map_or_else(|e| e.to_string(), |()| path.display().to_string());
+                let saved =
+                    std::fs::write(&path, &bytes).map_or_else(|e| e.to_string(), |()| path.display().to_string());
                 println!("{}: {why}\ninput: '{}'\nsaved: {saved}", reader.name(), bytes.escape_ascii());
                 return ExitCode::FAILURE;
             }
@@ -92,7 +95,3 @@ fn run(reader: Reader, cases: u32, seed: u64) -> Result<Sum, (String, Vec<u8>)> 
         Err(TestError::Abort(why)) => Err((why.to_string(), Vec::new())),
     }
 }
-
-/// Longer than this no input may take; the judge's own limit is far below.
-#[allow(dead_code)]
-const HANG: Duration = Duration::from_secs(10);

@@ -115,6 +115,30 @@ pub enum ReadError {
         /// The value as text.
         value: String,
     },
+    /// A component of a normal that no domain admits.
+    #[error(
+        "{place}: component {axis} of a normal is {value}; every component must be a finite number between -1e150 and 1e150"
+    )]
+    Normal {
+        /// Where.
+        place: Place,
+        /// x, y or z.
+        axis: char,
+        /// The value as text.
+        value: String,
+    },
+    /// A face with more corners than there are vertices; nothing was allocated for them.
+    #[error(
+        "{place}: a face with {corners} corners, but there are {vertices} vertices and a face names each once at most; correct the number of corners"
+    )]
+    TooManyCorners {
+        /// Where.
+        place: Place,
+        /// How many corners it has.
+        corners: u64,
+        /// How many vertices there are.
+        vertices: usize,
+    },
     /// Fewer rows than promised.
     #[error(
         "{place}: {promised} {what} promised, but the file ends after {found}; it is cut short or its count is wrong"
@@ -367,6 +391,15 @@ impl ReadError {
         }
         let axis = ['x', 'y', 'z'][axis];
         Err(ReadError::Coordinate { place: place(), axis, value: format!("{value:?}") })
+    }
+
+    /// A component of a normal that a domain admits, or the error that says where it does not.
+    pub(super) fn normal(value: f64, axis: usize, place: impl FnOnce() -> Place) -> Result<f64, Self> {
+        if (-LARGEST_COORDINATE..=LARGEST_COORDINATE).contains(&value) {
+            return Ok(value);
+        }
+        let axis = ['x', 'y', 'z'][axis];
+        Err(ReadError::Normal { place: place(), axis, value: format!("{value:?}") })
     }
 
     /// A vertex index outside of what a format that counts from `base` admits.

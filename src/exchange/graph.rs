@@ -4,10 +4,8 @@
 //! with one triangle stored, or `general` with equal entries on both sides. The diagonal is empty or zero. An edge of weight
 //! zero is an edge. The boundary of a graph is not part of the file.
 
-use std::collections::BTreeMap;
-
 use super::error::{Place, ReadError};
-use super::matrix_market::{Entry, Field, Stored, Symmetry, shortest};
+use super::matrix_market::{Field, Stored, Symmetry, shortest};
 use crate::domain::{Domain, Graph};
 
 pub(super) fn parse(name: &str, bytes: &[u8]) -> Result<Domain, ReadError> {
@@ -25,9 +23,10 @@ pub(super) fn parse(name: &str, bytes: &[u8]) -> Result<Domain, ReadError> {
         return Err(ReadError::Unsupported { place, what, advice: "the weights of a graph are symmetric" });
     }
     let (mut edges, mut weights) = (Vec::new(), Vec::new());
-    for entry in edge_entries(&stored)? {
-        edges.push([entry.row, entry.column]);
-        weights.push(entry.value);
+    for k in edge_entries(&stored)? {
+        let (row, column, value) = stored.entries[k];
+        edges.push([row, column]);
+        weights.push(value);
     }
     let graph = match stored.field {
         Field::Pattern => Graph::new(stored.rows, &edges),
@@ -36,42 +35,38 @@ pub(super) fn parse(name: &str, bytes: &[u8]) -> Result<Domain, ReadError> {
     Ok(graph.map_err(|source| ReadError::Domain { file: name.to_string(), source })?.into())
 }
 
-/// One entry for each edge, every entry checked.
-fn edge_entries<'a, 'b>(stored: &'b Stored<'a>) -> Result<Vec<&'b Entry<'a>>, ReadError> {
-    let mut seen: BTreeMap<(usize, usize), &Entry> = BTreeMap::new();
-    for entry in &stored.entries {
-        let (place, row, column) = (|| entry.word.place(), entry.row + 1, entry.column + 1);
-        let value = || shortest(entry.value);
-        if entry.row == entry.column {
-            if entry.value != 0.0 {
-                return Err(ReadError::Loop { place: place(), row, value: value() });
-            }
-            continue;
+/// The numbers of the entries that stand for an edge, one for each, by row and column; every entry is checked.
+fn edge_entries(stored: &Stored) -> Result<Vec<usize>, ReadError> {
+    let entries = &stored.entries;
+    for (k, &(i, j, value)) in entries.iter().enumerate() {
+        let text = || shortest(value);
+        if i == j && value != 0.0 {
+            return Err(ReadError::Loop { place: stored.place(k), row: i + 1, value: text() });
         }
-        if !entry.value.is_finite() {
-            return Err(ReadError::Weight { place: place(), row, column, value: value() });
+        if i != j && !value.is_finite() {
+            return Err(ReadError::Weight { place: stored.place(k), row: i + 1, column: j + 1, value: text() });
         }
-        if seen.insert((entry.row, entry.column), entry).is_some() {
-            return Err(ReadError::ParallelEdge { place: place(), row, column });
-        }
+    }
+    let at = |k: usize| (entries[k].0, entries[k].1);
+    let mut order: Vec<usize> = (0..entries.len()).filter(|&k| entries[k].0 != entries[k].1).collect();
+    order.sort_unstable_by_key(|&k| (at(k), k));
+    if let Some(k) = order.windows(2).filter(|w| at(w[0]) == at(w[1])).map(|w| w[1]).min() {
+        let (i, j) = at(k);
+        return Err(ReadError::ParallelEdge { place: stored.place(k), row: i + 1, column: j + 1 });
     }
     if stored.symmetry == Symmetry::Symmetric {
-        return Ok(seen.into_values().collect());
+        return Ok(order);
     }
-    for (&(i, j), entry) in &seen {
-        let mirrored = seen.get(&(j, i)).map(|e| e.value);
-        if mirrored != Some(entry.value) {
-            let (value, mirrored) = (shortest(entry.value), mirrored.map_or("none".into(), shortest));
-            return Err(ReadError::Asymmetric {
-                place: entry.word.place(),
-                row: i + 1,
-                column: j + 1,
-                value,
-                mirrored,
-            });
+    for &k in &order {
+        let (i, j, value) = entries[k];
+        let mirrored = order.binary_search_by_key(&(j, i), |&other| at(other)).ok().map(|at| entries[order[at]].2);
+        if mirrored != Some(value) {
+            let (value, mirrored) = (shortest(value), mirrored.map_or("none".into(), shortest));
+            return Err(ReadError::Asymmetric { place: stored.place(k), row: i + 1, column: j + 1, value, mirrored });
         }
     }
-    Ok(seen.into_values().filter(|e| e.row > e.column).collect())
+    order.retain(|&k| entries[k].0 > entries[k].1);
+    Ok(order)
 }
 
 /// The graph as the lower triangle of its matrix of weights; a pattern if it has none. Numbers have the fewest digits that

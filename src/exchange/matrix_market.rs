@@ -13,7 +13,7 @@
 //! the file, with a notice. `symmetric` with entries on both sides of the diagonal is refused: mirroring would double them.
 
 use super::error::ReadError;
-use super::text::Word;
+use super::text::{Lines, Word};
 use crate::linalg::Csr;
 
 /// Rows and columns beyond the bytes of the file are admitted up to this number: small empty matrices are no mistake.
@@ -65,13 +65,8 @@ pub(super) enum Field {
     Pattern,
 }
 
-/// A stored entry, counted from 0, with the word at which its line begins.
-pub(super) struct Entry<'a> {
-    pub row: usize,
-    pub column: usize,
-    pub value: f64,
-    pub word: Word<'a>,
-}
+/// A stored entry: row and column, counted from 0, and value. Its place is read again when an error asks for it.
+pub(super) type Entry = (usize, usize, f64);
 
 /// A file as it stands: nothing mirrored, nothing added up.
 pub(super) struct Stored<'a> {
@@ -79,7 +74,9 @@ pub(super) struct Stored<'a> {
     pub columns: usize,
     pub field: Field,
     pub symmetry: Symmetry,
-    pub entries: Vec<Entry<'a>>,
+    pub entries: Vec<Entry>,
+    /// What follows the sizes.
+    pub lines: Lines<'a>,
     /// Where the sizes stand.
     pub size: Word<'a>,
 }
@@ -91,27 +88,37 @@ pub(super) struct Stored<'a> {
 /// # Errors
 /// Content that does not follow the format, or promises more than it holds.
 pub fn parse_matrix(name: &str, bytes: &[u8]) -> Result<MatrixFile, ReadError> {
-    let stored = Stored::read(name, bytes)?;
+    let Stored { rows, columns, symmetry, entries: mut triplets, .. } = Stored::read(name, bytes)?;
+    let given = triplets.len();
     let mut notices = Vec::new();
-    let mut places: Vec<(usize, usize)> = stored.entries.iter().map(|e| (e.row, e.column)).collect();
+    if symmetry != Symmetry::General {
+        if triplets.iter().any(|&(i, j, _)| j > i) {
+            notices.push("the upper triangle was stored instead of the lower one, and was mirrored downwards".into());
+        }
+        let sign = if symmetry == Symmetry::Symmetric { 1.0 } else { -1.0 };
+        triplets.reserve_exact(triplets.iter().filter(|(i, j, _)| i != j).count());
+        for k in 0..given {
+            let (i, j, value) = triplets[k];
+            if i != j {
+                triplets.push((j, i, sign * value));
+            }
+        }
+    }
+    let matrix = Csr::from_triplets(rows, columns, &triplets);
+    if matrix.stored() < triplets.len() {
+        notices.insert(0, duplicates(&triplets[..given]));
+    }
+    Ok(MatrixFile { matrix, notices })
+}
+
+/// What to tell about entries that share their place, of which there are some.
+fn duplicates(entries: &[Entry]) -> String {
+    let mut places: Vec<(usize, usize)> = entries.iter().map(|&(i, j, _)| (i, j)).collect();
     places.sort_unstable();
-    let mut duplicates = places.windows(2).filter(|w| w[0] == w[1]);
-    if let Some(first) = duplicates.next() {
-        let (i, j) = (first[0].0 + 1, first[0].1 + 1);
-        let count = 1 + duplicates.count();
-        notices.push(format!(
-            "{count} entries repeat the place of an earlier one and were added to it, the first at ({i}, {j})"
-        ));
-    }
-    if stored.symmetry != Symmetry::General && stored.entries.iter().any(|e| e.column > e.row) {
-        notices.push("the upper triangle was stored instead of the lower one, and was mirrored downwards".into());
-    }
-    let mut triplets: Vec<_> = stored.entries.iter().map(|e| (e.row, e.column, e.value)).collect();
-    if stored.symmetry != Symmetry::General {
-        let sign = if stored.symmetry == Symmetry::Symmetric { 1.0 } else { -1.0 };
-        triplets.extend(stored.entries.iter().filter(|e| e.row != e.column).map(|e| (e.column, e.row, sign * e.value)));
-    }
-    Ok(MatrixFile { matrix: Csr::from_triplets(stored.rows, stored.columns, &triplets), notices })
+    let repeated = || places.windows(2).filter(|w| w[0] == w[1]);
+    let (i, j) = repeated().next().map_or((0, 0), |w| (w[0].0 + 1, w[0].1 + 1));
+    let count = repeated().count();
+    format!("{count} entries repeat the place of an earlier one and were added to it, the first at ({i}, {j})")
 }
 
 /// The matrix in coordinate form, general, every stored entry written, with the fewest digits that read back bit for bit

@@ -36,6 +36,7 @@ impl<'a> Stored<'a> {
         };
         let (rows, columns) = (line.count("number of rows")?, line.count("number of columns")?);
         check_sizes(&lines, banner, rows, columns)?;
+        let start = lines.clone();
         let entries = match banner.dense {
             true => {
                 line.finish("the sizes of an array are its rows and columns")?;
@@ -48,7 +49,15 @@ impl<'a> Stored<'a> {
             }
         };
         let (field, symmetry) = (banner.field, banner.symmetry);
-        Ok(Stored { rows: rows.value, columns: columns.value, field, symmetry, entries, size: rows.word })
+        let (rows, columns, size) = (rows.value, columns.value, rows.word);
+        Ok(Stored { rows, columns, field, symmetry, entries, lines: start, size })
+    }
+
+    /// The place of the `k`-th entry of a file in coordinates. Cost: reads the file again up to there.
+    pub fn place(&self, k: usize) -> Place {
+        let mut lines = self.lines.clone();
+        let word = (0..=k).filter_map(|_| lines.next()).last().map(|mut line| line.word_or_end());
+        word.unwrap_or(self.size).place()
     }
 }
 
@@ -103,7 +112,7 @@ fn read_coordinates<'a>(
     banner: Banner,
     size: [usize; 2],
     count: Count<'a>,
-) -> Result<Vec<Entry<'a>>, ReadError> {
+) -> Result<Vec<Entry>, ReadError> {
     // "1 1" and the line end.
     let promised = lines.check_count(count, "entries", 4)?;
     let mut entries = Vec::with_capacity(promised);
@@ -120,9 +129,8 @@ fn read_coordinates<'a>(
             Field::Pattern => "an entry of a pattern is its row and column, without a value",
             _ => "an entry is its row, column and value",
         })?;
-        let entry = Entry { row, column, value, word };
-        check_symmetry(&entry, banner.symmetry, &mut side)?;
-        entries.push(entry);
+        check_symmetry((row, column, value), word, banner.symmetry, &mut side)?;
+        entries.push((row, column, value));
     }
     lines.finish("entries", promised)?;
     Ok(entries)
@@ -160,33 +168,33 @@ fn read_value(line: &mut Line, field: Field) -> Result<f64, ReadError> {
 }
 
 /// Refuses an entry on the other side of the diagonal than those before it, `side` being that of the first and its line.
-fn check_symmetry(entry: &Entry, symmetry: Symmetry, side: &mut Option<(bool, usize)>) -> Result<(), ReadError> {
+fn check_symmetry(
+    (row, column, value): Entry,
+    word: Word,
+    symmetry: Symmetry,
+    side: &mut Option<(bool, usize)>,
+) -> Result<(), ReadError> {
     if symmetry == Symmetry::General {
         return Ok(());
     }
-    if entry.row == entry.column {
-        if symmetry == Symmetry::SkewSymmetric && entry.value != 0.0 {
-            let (place, row, value) = (entry.word.place(), entry.row + 1, entry.value.to_string());
+    if row == column {
+        if symmetry == Symmetry::SkewSymmetric && value != 0.0 {
+            let (place, row, value) = (word.place(), row + 1, value.to_string());
             return Err(ReadError::SkewDiagonal { place, row, value });
         }
         return Ok(());
     }
-    let lower = entry.row > entry.column;
-    let &mut (first, other_line) = side.get_or_insert((lower, entry.word.line_number()));
+    let lower = row > column;
+    let &mut (first, other_line) = side.get_or_insert((lower, word.line_number()));
     if first != lower {
-        let (place, symmetry) = (entry.word.place(), symmetry.name());
-        return Err(ReadError::BothTriangles { place, symmetry, entry: (entry.row + 1, entry.column + 1), other_line });
+        let (place, symmetry) = (word.place(), symmetry.name());
+        return Err(ReadError::BothTriangles { place, symmetry, entry: (row + 1, column + 1), other_line });
     }
     Ok(())
 }
 
 /// A value a line, down the columns; of a symmetric matrix from the diagonal, of a skew-symmetric one from below it.
-fn read_array<'a>(
-    lines: &mut Lines<'a>,
-    banner: Banner,
-    rows: Count<'a>,
-    columns: Count<'a>,
-) -> Result<Vec<Entry<'a>>, ReadError> {
+fn read_array(lines: &mut Lines, banner: Banner, rows: Count, columns: Count) -> Result<Vec<Entry>, ReadError> {
     let n = rows.value;
     let values = match banner.symmetry {
         Symmetry::General => n.saturating_mul(columns.value),
@@ -203,12 +211,11 @@ fn read_array<'a>(
         };
         for row in first..n {
             let mut line = lines.row("values of the array", values, found)?;
-            let word = line.clone().word_or_end();
             let value = read_value(&mut line, banner.field)?;
             line.finish("an array has one value a line, down its columns")?;
             found += 1;
             if value != 0.0 {
-                entries.push(Entry { row, column, value, word });
+                entries.push((row, column, value));
             }
         }
     }

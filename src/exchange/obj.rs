@@ -37,53 +37,81 @@ const FREE_FORM: [&str; 11] =
     ["curv", "curv2", "surf", "cstype", "deg", "bmat", "step", "parm", "trim", "hole", "call"];
 
 pub(super) fn parse(name: &str, bytes: &[u8]) -> Result<Domain, ReadError> {
-    let mut lines = Lines::new(name, bytes, Comments::Hash)?;
-    let mut mesh = Mesh::default();
-    while let Some(words) = statement(&mut lines) {
-        mesh.take(&words)?;
+    let mut mesh = Mesh::read(name, bytes, None)?;
+    let vertices = mesh.positions.len();
+    if vertices == 0 {
+        let (place, advice) = (Place::file(name), "write a line 'v x y z' for each vertex".into());
+        return Err(ReadError::Missing { place, what: "vertex".into(), advice });
     }
-    mesh.finish(name)
+    if mesh.ahead > vertices as i64 {
+        // Some index names no vertex. Now that their number is known, the first such index says so where it stands.
+        mesh = Mesh::read(name, bytes, Some(vertices))?;
+    }
+    let domain = |source| ReadError::Domain { file: name.to_string(), source };
+    if mesh.faces.is_empty() {
+        return Ok(PointCloud::new(mesh.positions, None).map_err(domain)?.into());
+    }
+    Ok(Surface::new(mesh.positions, mesh.faces).map_err(domain)?.into())
 }
 
-/// The words of the next statement, lines that end in `\` joined; the last word is the empty one at its end.
-fn statement<'a>(lines: &mut Lines<'a>) -> Option<Vec<Word<'a>>> {
-    let mut line: Line<'a> = lines.next()?;
-    let mut words = Vec::new();
-    loop {
-        let word = line.word_or_end();
-        let Some(cut) = word.continued() else {
-            words.push(word);
-            if word.bytes().is_empty() {
-                return Some(words);
+/// A line, with those after it as long as they end in `\`. A clone reads the same words again.
+#[derive(Clone)]
+struct Statement<'a> {
+    lines: Lines<'a>,
+    line: Line<'a>,
+}
+
+impl<'a> Statement<'a> {
+    /// The next word; the empty one at the end.
+    fn word(&mut self) -> Word<'a> {
+        loop {
+            let word = self.line.word_or_end();
+            let Some(cut) = word.continued() else { return word };
+            if let Some(next) = self.lines.raw() {
+                self.line = next;
             }
-            continue;
-        };
-        words.extend((!cut.bytes().is_empty()).then_some(cut));
-        match lines.raw() {
-            Some(next) => line = next,
-            None => {
-                words.push(line.word_or_end());
-                return Some(words);
+            if !cut.bytes().is_empty() {
+                return cut;
             }
         }
     }
+
+    /// The lines behind the statement.
+    fn rest(mut self) -> Lines<'a> {
+        while !self.word().bytes().is_empty() {}
+        self.lines
+    }
 }
 
-/// What has been read, with the indices that name a vertex not read yet.
+/// What has been read.
 #[derive(Default)]
-struct Mesh<'a> {
+struct Mesh {
     positions: Vec<[f64; 3]>,
     faces: Vec<Vec<usize>>,
-    ahead: Vec<(i64, Word<'a>)>,
+    /// The largest index of a vertex that had not been read where it was named.
+    ahead: i64,
+    /// The number of vertices, once the file has been read before.
+    known: Option<usize>,
 }
 
-impl<'a> Mesh<'a> {
-    fn take(&mut self, words: &[Word<'a>]) -> Result<(), ReadError> {
-        let (keyword, rest) = (words[0], &words[1..]);
+impl Mesh {
+    fn read(name: &str, bytes: &[u8], known: Option<usize>) -> Result<Self, ReadError> {
+        let mut lines = Lines::new(name, bytes, Comments::Hash)?;
+        let mut mesh = Mesh { known, ..Mesh::default() };
+        while let Some(line) = lines.next() {
+            let mut statement = Statement { lines, line };
+            mesh.take(&mut statement)?;
+            lines = statement.rest();
+        }
+        Ok(mesh)
+    }
+
+    fn take(&mut self, statement: &mut Statement) -> Result<(), ReadError> {
+        let keyword = statement.word();
         let is_one_of = |list: &[&str]| list.iter().any(|known| known.as_bytes() == keyword.bytes());
         match keyword.bytes() {
-            b"v" => self.vertex(rest),
-            b"f" | b"fo" => self.face(keyword, rest),
+            b"v" => self.vertex(statement),
+            b"f" | b"fo" => self.face(keyword, statement),
             _ if is_one_of(&SKIPPED) || keyword.bytes().is_empty() => Ok(()),
             _ if is_one_of(&FREE_FORM) => {
                 let what = format!("{}: a curve or free-form surface", keyword.shown());
@@ -96,7 +124,12 @@ impl<'a> Mesh<'a> {
     }
 
     /// Coordinates, then nothing, a weight, a colour, or a weight and a colour.
-    fn vertex(&mut self, words: &[Word<'a>]) -> Result<(), ReadError> {
+    fn vertex(&mut self, statement: &mut Statement) -> Result<(), ReadError> {
+        // One more than a vertex has; the empty word at the end counts.
+        let mut words = vec![statement.word()];
+        while words.len() < 9 && words.last().is_some_and(|w| !w.bytes().is_empty()) {
+            words.push(statement.word());
+        }
         let end = words.len() - 1;
         let at = |k: usize| words[k.min(end)];
         self.positions.push([at(0).coordinate(0)?, at(1).coordinate(1)?, at(2).coordinate(2)?]);
@@ -115,16 +148,27 @@ impl<'a> Mesh<'a> {
         Ok(())
     }
 
-    fn face(&mut self, keyword: Word<'a>, words: &[Word<'a>]) -> Result<(), ReadError> {
-        let corners = &words[..words.len() - 1];
-        let vertices = corners.iter().map(|&w| self.corner(w)).collect::<Result<Vec<_>, _>>()?;
-        face::check(&vertices, 1, "remove it", |at| corners.get(at).unwrap_or(&keyword).place())?;
+    fn face(&mut self, keyword: Word, statement: &mut Statement) -> Result<(), ReadError> {
+        let start = statement.clone();
+        let mut vertices = Vec::new();
+        loop {
+            let word = statement.word();
+            if word.bytes().is_empty() {
+                break;
+            }
+            vertices.push(self.corner(word)?);
+        }
+        face::check(&vertices, 1, "remove it", |at| {
+            let mut again = start.clone();
+            let word = (0..=at).map(|_| again.word()).last().filter(|w| !w.bytes().is_empty());
+            word.unwrap_or(keyword).place()
+        })?;
         self.faces.push(vertices);
         Ok(())
     }
 
     /// The vertex of a corner `v`, `v/vt`, `v//vn` or `v/vt/vn`, counted from 0.
-    fn corner(&mut self, word: Word<'a>) -> Result<usize, ReadError> {
+    fn corner(&mut self, word: Word) -> Result<usize, ReadError> {
         let form = |advice| word.expected("a corner v, v/vt, v//vn or v/vt/vn", advice);
         let mut parts = word.bytes().split(|&b| b == b'/');
         let whole = |part: &[u8]| match part {
@@ -132,7 +176,8 @@ impl<'a> Mesh<'a> {
             digits => number::whole(digits),
         };
         let index = whole(parts.next().unwrap_or_default()).map_err(form)?;
-        let rest: Vec<&[u8]> = parts.collect();
+        // One more than a corner has: that many slashes are refused below.
+        let rest: Vec<&[u8]> = parts.take(3).collect();
         for (k, part) in rest.iter().enumerate() {
             let skipped_texture = part.is_empty() && k == 0 && rest.len() == 2;
             match whole(part) {
@@ -146,7 +191,7 @@ impl<'a> Mesh<'a> {
         self.resolve(index, word)
     }
 
-    fn resolve(&mut self, index: i64, word: Word<'a>) -> Result<usize, ReadError> {
+    fn resolve(&mut self, index: i64, word: Word) -> Result<usize, ReadError> {
         let read = self.positions.len() as i64;
         let vertex = match index {
             0 => return Err(ReadError::ZeroIndex { place: word.place() }),
@@ -159,26 +204,15 @@ impl<'a> Mesh<'a> {
             }
         };
         if vertex >= read {
-            self.ahead.push((index, word));
+            match self.known {
+                Some(vertices) if vertex >= vertices as i64 => {
+                    return Err(ReadError::index(word.place(), index, vertices, 1));
+                }
+                _ => self.ahead = self.ahead.max(index),
+            }
         }
-        // A whole number from 0 up fits `usize` wherever 64-bit files are read; elsewhere it is out of range below.
+        // A whole number from 0 up fits `usize` wherever 64-bit files are read; elsewhere it is out of range in the second reading.
         Ok(usize::try_from(vertex).unwrap_or(usize::MAX))
-    }
-
-    fn finish(self, name: &str) -> Result<Domain, ReadError> {
-        let vertices = self.positions.len();
-        if vertices == 0 {
-            let (place, advice) = (Place::file(name), "write a line 'v x y z' for each vertex".into());
-            return Err(ReadError::Missing { place, what: "vertex".into(), advice });
-        }
-        if let Some((index, word)) = self.ahead.into_iter().find(|&(index, _)| index > vertices as i64) {
-            return Err(ReadError::index(word.place(), index, vertices, 1));
-        }
-        let domain = |source| ReadError::Domain { file: name.to_string(), source };
-        if self.faces.is_empty() {
-            return Ok(PointCloud::new(self.positions, None).map_err(domain)?.into());
-        }
-        Ok(Surface::new(self.positions, self.faces).map_err(domain)?.into())
     }
 }
 

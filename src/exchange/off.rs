@@ -139,6 +139,7 @@ fn extra_columns(line: &mut Line, columns: Columns, vertices: usize) -> Result<V
                     ),
                 ));
             }
+            (_, axis @ 0..3) if columns.normal => extra.push(word.normal(axis)?),
             _ => extra.push(word.real("normal, colour or texture")?),
         }
     }
@@ -146,9 +147,13 @@ fn extra_columns(line: &mut Line, columns: Columns, vertices: usize) -> Result<V
 
 fn face_corners(line: &mut Line, vertices: usize) -> Result<Vec<usize>, ReadError> {
     let start = line.count("number of corners")?;
+    if start.value > vertices {
+        let (place, corners) = (start.word.place(), start.value as u64);
+        return Err(ReadError::TooManyCorners { place, corners, vertices });
+    }
+    let again = line.clone();
     // An index takes two bytes at least, with the blank before it.
     let mut corners = Vec::with_capacity(start.value.min(line.remaining() / 2));
-    let mut words = Vec::with_capacity(corners.capacity());
     for k in 0..start.value {
         let word = line.word_or_end();
         if word.bytes().is_empty() {
@@ -156,10 +161,10 @@ fn face_corners(line: &mut Line, vertices: usize) -> Result<Vec<usize>, ReadErro
             return Err(word.expected(expected, "a face line is the number of corners, then their indices"));
         }
         corners.push(word.index(vertices, 0)?);
-        words.push(word);
     }
     face::check(&corners, 0, "remove it, or correct the number of vertices if it is one", |at| {
-        words.get(at).unwrap_or(&start.word).place()
+        let mut again = again.clone();
+        (0..=at).filter_map(|_| again.word()).last().unwrap_or(start.word).place()
     })?;
     Ok(corners)
 }

@@ -253,21 +253,24 @@ type Points = Vec<[f64; 3]>;
 /// Positions, and normals where they are declared.
 fn read_vertices<B: Body>(body: &mut B, element: &Element) -> Result<(Points, Option<Points>), ReadError> {
     let rows = element.rows.value;
-    let (mut positions, mut normals) = (vec![[0.0; 3]; rows], vec![[0.0; 3]; rows]);
-    let columns = ["x", "y", "z", "nx", "ny", "nz"].map(|name| element.property(&[name]));
+    let mut columns = ["x", "y", "z", "nx", "ny", "nz"].map(|name| element.property(&[name]));
+    let has_normals = columns[3..].iter().all(|c| c.is_some_and(|k| element.properties[k].is_scalar()));
+    if !has_normals {
+        columns[3..].fill(None);
+    }
+    let (mut positions, mut normals) = (vec![[0.0; 3]; rows], vec![[0.0; 3]; if has_normals { rows } else { 0 }]);
     for row in 0..rows {
         read_row(body, element, row, |body, property, value, mark| {
             match columns.iter().position(|&c| c == Some(property)) {
                 Some(axis @ 0..3) => {
                     positions[row][axis] = ReadError::coordinate(value, axis, || body.place(mark))?;
                 }
-                Some(axis) => normals[row][axis - 3] = value,
+                Some(axis) => normals[row][axis - 3] = ReadError::normal(value, axis - 3, || body.place(mark))?,
                 None => {}
             }
             Ok(())
         })?;
     }
-    let has_normals = columns[3..].iter().all(Option::is_some);
     Ok((positions, has_normals.then_some(normals)))
 }
 
@@ -278,6 +281,10 @@ fn read_faces<B: Body>(body: &mut B, element: &Element, vertices: usize) -> Resu
         let (mut corners, mut marks) = (Vec::new(), Vec::new());
         read_row(body, element, row, |body, property, value, mark| {
             if Some(property) == at {
+                if corners.len() == vertices {
+                    let (place, corners) = (body.place(mark), vertices as u64 + 1);
+                    return Err(ReadError::TooManyCorners { place, corners, vertices });
+                }
                 let index = value as i64;
                 let vertex = usize::try_from(index).ok().filter(|&v| v < vertices);
                 corners.push(vertex.ok_or_else(|| ReadError::index(body.place(mark), index, vertices, 0))?);

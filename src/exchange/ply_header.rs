@@ -79,6 +79,13 @@ pub(super) struct Property<'a> {
     pub shape: Shape,
 }
 
+impl Property<'_> {
+    /// Whether it is one number.
+    pub fn is_scalar(&self) -> bool {
+        matches!(self.shape, Shape::Scalar(_))
+    }
+}
+
 /// A table of the file.
 pub(super) struct Element<'a> {
     pub name: Word<'a>,

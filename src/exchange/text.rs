@@ -19,7 +19,8 @@ pub(super) enum Comments {
     None,
 }
 
-/// The lines of a text.
+/// The lines of a text. A clone is cheap and reads the same lines again.
+#[derive(Clone)]
 pub(super) struct Lines<'a> {
     name: &'a str,
     rest: &'a [u8],
@@ -223,6 +224,12 @@ impl<'a> Word<'a> {
             Some(i) if i < vertices => Ok(i),
             _ => Err(ReadError::index(self.place(), index, vertices, base)),
         }
+    }
+
+    /// A component of a normal, within the same range as a coordinate.
+    pub fn normal(&self, axis: usize) -> Result<f64, ReadError> {
+        let value = self.value("normal")?;
+        ReadError::normal(value, axis, || self.place())
     }
 
     /// A coordinate of a domain: finite and of a magnitude whose square does not overflow.

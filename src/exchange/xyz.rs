@@ -21,8 +21,8 @@ pub(super) fn parse(name: &str, bytes: &[u8]) -> Result<Domain, ReadError> {
             return Err(word.expected(expected, "all lines have three numbers, or all have six"));
         }
         if six {
-            let mut component = || line.word_or_end().real("normal");
-            normals.push([component()?, component()?, component()?]);
+            let mut component = |axis| line.word_or_end().normal(axis);
+            normals.push([component(0)?, component(1)?, component(2)?]);
         }
         line.finish("a line is x y z, or x y z and a normal nx ny nz")?;
     }

@@ -36,7 +36,11 @@ impl<S: Scalar> Csr<S> {
             order[next[i]] = k;
             next[i] += 1;
         }
-        let mut matrix = Self { rows, columns, offsets: vec![0], indices: Vec::new(), values: Vec::new() };
+        let (mut indices, mut values) = (Vec::new(), Vec::new());
+        indices.reserve_exact(triplets.len());
+        values.reserve_exact(triplets.len());
+        let mut matrix = Self { rows, columns, offsets: Vec::with_capacity(rows + 1), indices, values };
+        matrix.offsets.push(0);
         for i in 0..rows {
             let row = &mut order[offsets[i]..offsets[i + 1]];
             row.sort_by_key(|&k| (triplets[k].1, k));

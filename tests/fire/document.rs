@@ -47,8 +47,37 @@ pub enum Expected {
 
 /// What no reader may take for a number, whatever it stands for.
 const NO_NUMBER: [&str; 31] = [
-    "1,5", "0x1p0", "0x10", "1e", "1e+", "1.0.0", "1_000", "--1", "+-1", "1e5x", ".", "e5", "1d5", "½", "１", "٣", "−1",
-    "1\u{a0}", "1\0", "1f", "1.5L", "(1)", "1;2", "'1'", "1e1.5", "-", "+", "1'000", "1e400", "1e-400", "1e99999999999999999999",
+    "1,5",
+    "0x1p0",
+    "0x10",
+    "1e",
+    "1e+",
+    "1.0.0",
+    "1_000",
+    "--1",
+    "+-1",
+    "1e5x",
+    ".",
+    "e5",
+    "1d5",
+    "½",
+    "１",
+    "٣",
+    "−1",
+    "1\u{a0}",
+    "1\0",
+    "1f",
+    "1.5L",
+    "(1)",
+    "1;2",
+    "'1'",
+    "1e1.5",
+    "-",
+    "+",
+    "1'000",
+    "1e400",
+    "1e-400",
+    "1e99999999999999999999",
 ];
 const NO_COORDINATE: [&str; 7] = ["nan", "-NaN", "inf", "-Infinity", "1.1e150", "-1e200", "nan(ind)"];
 const NO_COUNT: [&str; 14] = [
@@ -118,7 +147,10 @@ impl Document {
                 3 => self.lines.truncate(a + 1),
                 4 => {
                     let k = tape.below(self.lines[a].len() + 1);
-                    self.lines[a].insert(k, (tape.pick(&["0", "1", "-1", "7", "0.5", "nan", "f", "/", "#"]).into(), Kind::Plain));
+                    self.lines[a].insert(
+                        k,
+                        (tape.pick(&["0", "1", "-1", "7", "0.5", "nan", "f", "/", "#"]).into(), Kind::Plain),
+                    );
                 }
                 5 => {
                     let k = tape.below(self.lines[a].len());
@@ -147,7 +179,7 @@ impl Document {
         let end = tape.pick(&["\n", "\n", "\r\n", "\r"]);
         let blank = tape.pick(&[" ", " ", "\t", "   ", " \t "]);
         let (indent, trail) = (tape.pick(&["", "", " ", "\t"]), tape.pick(&["", "", " ", "\t "]));
-        let noise = tape.below(4) == 3;
+        let mut noise = tape.below(4) == 3;
         let mut text = String::from(tape.pick(&["", "", "", "\u{feff}"]));
         let last = self.lines.len().saturating_sub(1);
         if self.lines.is_empty() {
@@ -166,11 +198,13 @@ impl Document {
             if k < last || !self.body.is_empty() || tape.below(4) < 3 {
                 text += end;
             }
+            // Below the header of PLY there are no comments.
+            noise &= self.comments != Comments::Ply || words[0].0 != "end_header";
             if noise && k < last && tape.once_in(3) {
                 match self.comments {
                     Comments::Hash => text += &format!("# {}{end}{blank}{end}", "x".repeat(tape.pick(&[0, 3, 700]))),
                     Comments::Percent => text += &format!("%{end}{end}% 1 2 3{end}"),
-                    Comments::Ply if k > 0 && words[0].0 != "end_header" => text += &format!("comment é {end}"),
+                    Comments::Ply if k > 0 => text += &format!("comment é {end}"),
                     Comments::Ply | Comments::None => {}
                 }
             }
