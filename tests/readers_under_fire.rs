@@ -7,6 +7,7 @@ mod fire;
 
 use std::io::Write;
 use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
 
 use fire::document::Expected;
 use fire::{Reader, input, judge, meter, numbers};
@@ -32,17 +33,19 @@ fn two_thousand_inputs_for_each_reader_are_read_whole_or_refused_with_place_and_
         let config = Config { cases: 2000, failure_persistence: None, ..Config::default() };
         let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &[reader as u8; 32]);
         let mut runner = TestRunner::new_with_rng(config, rng);
-        let counts = std::cell::Cell::new([0, 0]);
+        let (counts, slowest) = (std::cell::Cell::new([0, 0]), std::cell::Cell::new(Duration::ZERO));
         let result = runner.run(&numbers(), |numbers| {
             let (bytes, expected) = input(reader, &numbers);
             let cost = judge::judge(reader, &bytes, expected, f64::INFINITY);
             let cost = cost.map_err(|why| TestCaseError::fail(format!("{why}\n{}", bytes.escape_ascii())))?;
+            slowest.set(slowest.get().max(cost.time));
             let [refused, accepted] = counts.get();
             counts.set(if cost.accepted { [refused, accepted + 1] } else { [refused + 1, accepted] });
             Ok(())
         });
         result.unwrap_or_else(|e| panic!("{}: {e}", reader.name()));
         let [refused, accepted] = counts.get();
+        println!("{}: {accepted} read, {refused} refused, the slowest in {:?}", reader.name(), slowest.get());
         assert!(refused > 100 && accepted > 100, "{}: {refused} refused, {accepted} read", reader.name());
     }
 }

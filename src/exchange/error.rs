@@ -83,6 +83,18 @@ pub enum ReadError {
         /// The limit in bytes.
         limit: u64,
     },
+    /// A gzip file whose content is out of proportion to its length; it was not decompressed to the end.
+    #[error(
+        "{file}: {compressed} bytes of gzip hold more than {limit}, out of all proportion for text of numbers; if it is a mesh or matrix all the same, decompress it with gzip -d first"
+    )]
+    Bomb {
+        /// The file.
+        file: String,
+        /// Its length in bytes.
+        compressed: usize,
+        /// How many bytes were decompressed before it was given up.
+        limit: u64,
+    },
     /// A gzip file that cannot be decompressed.
     #[error(
         "{file}: not a whole gzip file ({why}); copy it again, or remove .gz from its name if it is not compressed"

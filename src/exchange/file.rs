@@ -133,9 +133,15 @@ fn is_compressed(content: &[u8]) -> bool {
 fn decompress(name: &str, bytes: &[u8]) -> Result<Vec<u8>, ReadError> {
     let limit = (bytes.len() as u64).saturating_mul(EXPANSION).clamp(SMALL, LONGEST);
     let broken = |why: String| ReadError::Compressed { file: name.to_string(), why };
-    limited(MultiGzDecoder::new(bytes), name, limit, |e| match e.kind() {
+    let content = limited(MultiGzDecoder::new(bytes), name, limit, |e| match e.kind() {
         std::io::ErrorKind::UnexpectedEof => broken("it ends too early".into()),
         _ => broken(e.to_string()),
+    });
+    content.map_err(|error| match error {
+        ReadError::TooLong { file, limit } if limit < LONGEST => {
+            ReadError::Bomb { file, compressed: bytes.len(), limit }
+        }
+        other => other,
     })
 }
 

@@ -13,12 +13,17 @@
 //! Every file may be compressed with gzip, whatever its name.
 //!
 //! # Guarantees
-//! No input makes a reader panic, and none makes it allocate more than a small multiple of the file's length (decompressed,
-//! where 4 GiB are the limit). Numbers are
+//! No input makes a reader panic, and none makes it work longer than in proportion to its length. Sizes are checked before
+//! anything is allocated for them: a file that is refused has cost at most ten times its length (decompressed) and 32 KiB.
+//! Decompressed content is limited to 4 GiB and, beyond 16 MiB, to 200 times the compressed length. Numbers are
 //! read strictly, counts are compared with what follows, indices are checked where they stand; an error says which file,
 //! line and column (byte, in binary data), what was expected and what to do. Numbers are written with the fewest digits that
 //! read back bit for bit.
 //! # Limitations
+//! A file that is accepted costs what its domain or matrix holds: a surface some 140 bytes a corner while its edges are
+//! found, which of a usual mesh is ten times its text and of the densest one, a few digits a face, fifty times; a row of a
+//! matrix 24 bytes, empty ones included, of which there may be 65536 more than bytes in the file; an entry 48 bytes, and twice
+//! that where it is mirrored.
 //! Colours, texture coordinates, materials and groups are skipped; so are the normals of a surface.
 
 mod bytes;

@@ -164,6 +164,10 @@ fn face_corners(line: &mut Line, vertices: usize) -> Result<Vec<usize>, ReadErro
     }
     face::check(&corners, 0, "remove it, or correct the number of vertices if it is one", |at| {
         let mut again = again.clone();
+        // Without corners, what follows their number is a colour.
+        if corners.is_empty() {
+            return start.word.place();
+        }
         (0..=at).filter_map(|_| again.word()).last().unwrap_or(start.word).place()
     })?;
     Ok(corners)

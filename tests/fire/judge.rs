@@ -22,8 +22,8 @@ const NAME: &str = "in.put";
 /// How many times its length an input may cost in memory.
 pub fn factor(reader: Reader) -> usize {
     match reader {
-        // The crate `toml` makes a tree of the text first, at up to 80 bytes for a bracket.
-        Reader::Suite | Reader::Claims => 100,
+        // The crate `toml` makes a tree of the text first, at up to 110 bytes for a bracket.
+        Reader::Suite | Reader::Claims => 128,
         _ => 10,
     }
 }
@@ -35,7 +35,7 @@ pub fn constant(reader: Reader) -> usize {
         Reader::Coordinate | Reader::Graph => 2 << 20,
         Reader::Array => 1 << 15,
         // The window and the tables of the decompressor.
-        Reader::Gzip => 1 << 16,
+        Reader::Gzip => 1 << 17,
         Reader::Suite | Reader::Claims | Reader::Record => 1 << 16,
         _ => 1 << 15,
     }

@@ -12,13 +12,14 @@ use super::Reader;
 use super::document::Expected;
 use super::tape::Tape;
 
-const PIECES: [&str; 34] = [
+const PIECES: [&str; 35] = [
     "0",
     "1",
     "-1",
     "4",
     "1e400",
     "1e-400",
+    "65536",
     "nan",
     "-inf",
     "1,5",
