@@ -13,7 +13,8 @@ use fire::document::Expected;
 use fire::{Reader, input, judge, meter, numbers};
 use flate2::Compression;
 use flate2::write::GzEncoder;
-use lapjury::exchange::{Format, parse_domain, parse_matrix, unpack};
+use lapjury::Recipe;
+use lapjury::exchange::{Format, parse_domain, parse_matrix, unpack, write_domain};
 use proptest::test_runner::{Config, RngAlgorithm, TestCaseError, TestRng, TestRunner};
 
 /// Nothing else is allocated while a test holds this.
@@ -143,7 +144,9 @@ fn a_compressed_bomb_is_stopped_at_the_limit() {
     assert_eq!(
         error,
         format!(
-            "bomb.off.gz: longer than {limit} bytes when decompressed; no mesh or matrix of that size can be tried"
+            "bomb.off.gz: {} bytes of gzip hold more than {limit}, out of all proportion for text of numbers; if it is a mesh \
+             or matrix all the same, decompress it with gzip -d first",
+            bomb.len()
         )
     );
     assert!(peak < 4 * limit, "{peak} bytes");
@@ -183,10 +186,46 @@ fn memory_grows_with_the_length_of_the_densest_files_by_a_stated_factor() {
         println!("{what}: {ratio:.1} times {} bytes", text.len());
         assert!(ratio < f64::from(factor), "{what}: {ratio}");
     }
+    // Accepted, the edges of a surface are found as well: the densest one there is, and a usual one.
+    let dense = format!("OFF 3 {n}\n{}{}", point.repeat(3), "3 0 1 2\n".repeat(n));
+    let recipe: Recipe = "icosphere:levels=4".parse().unwrap();
+    let usual = write_domain(&recipe.build(".".as_ref()).unwrap(), Format::Off).unwrap();
+    for (what, text, factor) in [("the densest surface", dense, 80.0), ("a sphere", usual, 16.0)] {
+        let (accepted, peak) = meter::peak(|| parse_domain(Format::Off, "f", text.as_bytes()).is_ok());
+        let ratio = peak as f64 / text.len() as f64;
+        println!("{what}: {ratio:.1} times {} bytes", text.len());
+        assert!(accepted && ratio < factor, "{what}: {ratio}");
+    }
     let entries = |n: usize| (0..n).map(|k| format!("{} {} 1\n", k % 99 + 1, k / 99 % 99 + 1)).collect::<String>();
     let matrix = format!("%%MatrixMarket matrix coordinate real general\n99 99 9801\n{}", entries(9801));
     let (_, peak) = meter::peak(|| parse_matrix("f", matrix.as_bytes()).is_ok());
     let ratio = peak as f64 / matrix.len() as f64;
     println!("matrix: {ratio:.1} times {} bytes", matrix.len());
     assert!(ratio < 10.0, "matrix: {ratio}");
+}
+
+/// Eigen's `saveMarket` with its symmetric flag: two blanks in the header, and both triangles below it.
+#[test]
+fn what_eigen_and_scipy_write_is_read_once_or_refused_with_its_cause() {
+    let _alone = alone();
+    let eigen = "%%MatrixMarket matrix coordinate  real symmetric\n2 2 4\n1 1 2\n2 1 -1\n1 2 -1\n2 2 2\n";
+    let error = parse_matrix("L.mtx", eigen.as_bytes()).map(drop).unwrap_err().to_string();
+    assert!(error.starts_with("L.mtx:5:1: ") && error.contains("Eigen's saveMarket"), "{error}");
+    assert!(error.contains("write 'general' in the header"), "{error}");
+    let general = parse_matrix("L.mtx", eigen.replace("symmetric", "general").as_bytes()).unwrap();
+    // What SciPy writes for the same matrix: one triangle below a hundred rows.
+    let scipy = "%%MatrixMarket matrix coordinate real symmetric\n%\n2 2 3\n1 1 2\n2 1 -1\n2 2 2\n";
+    assert_eq!(parse_matrix("L.mtx", scipy.as_bytes()).unwrap(), general);
+    // Each repetition is counted once, though it is mirrored.
+    let twice = scipy.replace("2 2 3", "2 2 5").replace("2 1 -1\n", "2 1 -0.5\n2 1 -0.25\n2 1 -0.25\n");
+    let summed = parse_matrix("L.mtx", twice.as_bytes()).unwrap();
+    assert_eq!(summed.matrix, general.matrix);
+    let told = "2 entries repeat the place of an earlier one and were added to it, the first at (2, 1)";
+    assert_eq!(summed.notices, [told]);
+    let from_zero = scipy.replace("1 1 2", "0 0 2");
+    let error = parse_matrix("L.mtx", from_zero.as_bytes()).map(drop).unwrap_err().to_string();
+    assert_eq!(
+        error,
+        "L.mtx:4:1: index 0, but this format counts from 1; is the file 0-based? Then add 1 to every index"
+    );
 }
