@@ -36,7 +36,8 @@ pub fn constant(reader: Reader) -> usize {
         Reader::Array => 1 << 15,
         // The window and the tables of the decompressor, and a field of its header of up to 64 KiB, which is doubled as it grows.
         Reader::Gzip => 1 << 18,
-        Reader::Suite | Reader::Claims | Reader::Record => 1 << 16,
+        Reader::Suite | Reader::Claims => 1 << 19,
+        Reader::Record => 1 << 16,
         _ => 1 << 15,
     }
 }
