@@ -14,7 +14,8 @@
 //!
 //! # Guarantees
 //! No input makes a reader panic, and none makes it work longer than in proportion to its length. Sizes are checked before
-//! anything is allocated for them: a file that is refused has cost at most ten times its length (decompressed) and 32 KiB.
+//! anything is allocated for them: a file that is refused has cost less than ten times its length (decompressed) and 32 KiB,
+//! or up to twenty times where it is long and nothing but faces with indices of a digit, or one polygon of all vertices.
 //! Decompressed content is limited to 4 GiB and, beyond 16 MiB, to 200 times the compressed length. Numbers are
 //! read strictly, counts are compared with what follows, indices are checked where they stand; an error says which file,
 //! line and column (byte, in binary data), what was expected and what to do. Numbers are written with the fewest digits that
