@@ -33,9 +33,16 @@ fn half_a_digit(x: f64) -> f64 {
 
 #[test]
 fn the_eigenvalues_of_real_meshes_are_those_of_an_independent_program() {
-    for name in
-        ["spot.ply", "bob_small.ply", "fox.ply", "eight.off", "anchor.off", "blade.off", "three_peaks.off", "oblong.off"]
-    {
+    for name in [
+        "spot.ply",
+        "bob_small.ply",
+        "fox.ply",
+        "eight.off",
+        "anchor.off",
+        "blade.off",
+        "three_peaks.off",
+        "oblong.off",
+    ] {
         let found = spectrum(&mesh(name), "barycentric", 4, 1);
         assert!(found.closure.certified, "{name}: {:?}", found.closure);
         for (found, expected) in found.values[1..4].iter().zip(printed(name)) {
