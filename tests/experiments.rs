@@ -109,7 +109,8 @@ fn the_claims_are_complete_and_well_formed() {
         ["NULL", "LOC", "SYM", "PSD", "KER", "POS", "POS0", "LIN", "MVP", "MAX-local", "MAX-global", "MAX-heat"];
     let claims = claims();
     let ids: Vec<&str> = claims.iter().map(|c| c.id.as_str()).collect();
-    let expected = "c29 c30 c31 c32 c33 c34 c35 c36 c37 c38 c67 c68 c70 c71 c72 c73 c77 c81 c82 t01";
+    let expected =
+        "c29 c30 c31 c32 c33 c34 c35 c36 c37 c38 c39 c40 c41 c42 c43 c44 c67 c68 c70 c71 c72 c73 c77 c81 c82 t01";
     assert_eq!(ids, expected.split(' ').collect::<Vec<_>>());
     for claim in &claims {
         assert!(!claim.statement.is_empty() && !claim.source.is_empty() && !claim.section.is_empty());
@@ -149,6 +150,7 @@ fn the_experiments_come_out_as_the_claims_expect() {
                     assert!(stated.contains(&false), "{}: nothing shows that the amendment is needed", claim.id);
                     assert!(!amended.is_empty() && amended.iter().all(|a| *a), "{}", claim.id);
                 }
+                "refuted" => assert!(stated.contains(&false) && amended.is_empty(), "{}", claim.id),
                 other => panic!("{}: no claim here is expected to be {other}", claim.id),
             }
         }
@@ -167,7 +169,8 @@ fn every_witness_survives_an_independent_look() {
             assert_eq!(&serde_json::from_str::<Evidence>(&text).unwrap(), evidence);
         }
     }
-    let expected = ["asymmetry", "far", "moment", "negative-energy", "overshoot", "singular", "weight"];
+    let expected =
+        ["asymmetry", "below-cheeger", "far", "moment", "negative-energy", "overshoot", "singular", "weight"];
     assert_eq!(kinds, BTreeSet::from(expected));
 }
 
@@ -216,6 +219,9 @@ fn spoilt(evidence: &Evidence) -> Evidence {
         match evidence.statement {
             Statement::Asymmetry { .. } | Statement::FarEntry { .. } => row.entries.retain(|e| e.0 == row.row),
             Statement::Singular { .. } => row.entries.push((row.row, 1.0)),
+            Statement::BelowCheeger { .. } => {
+                row.entries.iter_mut().for_each(|e| e.1 *= if e.0 == 0 { 64.0 } else { 1.0 })
+            }
             _ => row.entries.iter_mut().for_each(|e| e.1 = if e.0 == row.row { e.1.abs() } else { -e.1.abs() }),
         }
     }
@@ -275,6 +281,30 @@ fn look(evidence: &Evidence) -> Result<&'static str, String> {
             };
             is(rows.iter().all(|r| residual(r) == 0.0), "not in the kernel")?;
             Ok("singular")
+        }
+        Statement::BelowCheeger { x, side } => {
+            let n = rows.len();
+            let value = |k: usize| x.iter().find(|(i, _)| *i == k).map_or(0.0, |(_, v)| *v);
+            let weights: Vec<Vec<f64>> = (0..n)
+                .map(|i| (0..n).map(|j| if i == j { 0.0 } else { -entry(i, j).unwrap_or(1.0) }).collect())
+                .collect();
+            let ratio = |inside: &dyn Fn(usize) -> bool| {
+                let sum = |f: &dyn Fn(usize, usize) -> bool| -> f64 {
+                    (0..n * n).filter(|k| f(k / n, k % n)).map(|k| weights[k / n][k % n]).sum()
+                };
+                let volume = sum(&|i, j| inside(i) && inside(j)).min(sum(&|i, j| !inside(i) && !inside(j)));
+                if volume > 0.0 { sum(&|i, j| inside(i) && !inside(j)) / volume } else { f64::INFINITY }
+            };
+            let smallest =
+                (1..(1_usize << n) - 1).map(|mask| ratio(&|v| mask >> v & 1 == 1)).fold(f64::INFINITY, f64::min);
+            is((ratio(&|v| side.contains(&v)) - smallest).abs() < 1e-12, "another partition is better")?;
+            let degree = |i: usize| weights[i].iter().sum::<f64>();
+            let mean = (0..n).map(|i| degree(i) * value(i)).sum::<f64>() / (0..n).map(degree).sum::<f64>();
+            let square: f64 = (0..n).map(|i| degree(i) * (value(i) - mean).powi(2)).sum();
+            let energy: f64 =
+                (0..n * n).map(|k| 0.5 * weights[k / n][k % n] * (value(k / n) - value(k % n)).powi(2)).sum();
+            is(energy < 0.5 * smallest * smallest * square * (1.0 - 1e-12), "the vector is not below the bound")?;
+            Ok("below-cheeger")
         }
         Statement::Asymmetry { i, j, threshold } => {
             is((entry(*i, *j)? - entry(*j, *i)?).abs() > *threshold, "the entries agree")?;

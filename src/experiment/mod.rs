@@ -20,6 +20,7 @@ catalogue! {
     heat_flow,
     linear_precision_of_graphs,
     cotangent_sign,
+    cheeger_inequality,
 }
 
 use crate::property::{Evidence, Level};

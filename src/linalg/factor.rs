@@ -11,7 +11,7 @@ use faer::sparse::linalg::cholesky::{
     factorize_symbolic_cholesky, supernodal,
 };
 use faer::sparse::{SparseColMat, Triplet};
-use faer::{Conj, Mat, Par, Side};
+use faer::{Conj, Mat, MatMut, Par, Side};
 
 use super::Csr;
 
@@ -152,19 +152,33 @@ impl Ldlt {
         count
     }
 
+    /// Solves `A X = B` in place, the columns split over two threads.
+    pub(super) fn solve_block(&self, x: MatMut<'_, f64>) {
+        if x.ncols() < 2 {
+            return self.solve_columns(x);
+        }
+        let half = x.ncols() / 2;
+        let (left, right) = x.split_at_col_mut(half);
+        rayon::join(|| self.solve_columns(left), || self.solve_columns(right));
+    }
+
+    fn solve_columns(&self, x: MatMut<'_, f64>) {
+        let scratch = self.symbolic.solve_in_place_scratch::<f64>(x.ncols(), Par::Seq);
+        LdltRef::new(&self.symbolic, &self.values).solve_in_place_with_conj(
+            Conj::No,
+            x,
+            Par::Seq,
+            MemStack::new(&mut MemBuffer::new(scratch)),
+        );
+    }
+
     /// Solves `A X = B`, the columns of B given and replaced.
     pub fn solve(&self, columns: &mut [Vec<f64>]) {
         if columns.is_empty() {
             return;
         }
         let mut x = Mat::from_fn(self.symbolic.nrows(), columns.len(), |i, j| columns[j][i]);
-        let scratch = self.symbolic.solve_in_place_scratch::<f64>(x.ncols(), Par::Seq);
-        LdltRef::new(&self.symbolic, &self.values).solve_in_place_with_conj(
-            Conj::No,
-            x.as_mut(),
-            Par::Seq,
-            MemStack::new(&mut MemBuffer::new(scratch)),
-        );
+        self.solve_columns(x.as_mut());
         read_back(&x, columns);
     }
 }

@@ -7,7 +7,9 @@ pub mod certified;
 pub mod csr;
 pub mod exact;
 pub mod factor;
+mod lanczos;
 pub mod rational;
+pub mod spectrum;
 
 pub use csr::Csr;
 pub use exact::Dense;

@@ -295,6 +295,15 @@ pub enum Statement {
         /// The threshold in force.
         threshold: f64,
     },
+    /// No property; the Cheeger inequality with the volume `Σ_{i,j∈A} ω_ij` as printed in the primer: of all partitions of a
+    /// connected graph with positive weights the one into `side` and the rest has the smallest constant λ_C, and
+    /// `xᵀLx < ½ λ_C² (xᵀDx − (1ᵀDx)²/1ᵀD1)`, D the degrees, so that `λ̃₁ < λ_C²/2`. All rows.
+    BelowCheeger {
+        /// The vector.
+        x: SparseVector,
+        /// One side of the partition that attains the constant.
+        side: Vec<usize>,
+    },
     // ── certificates ───────────────────────────────────────────────────────────────────────────────────────────────
     /// Every one of `checked` places was looked at and none violates the property; the worst is at `worst`.
     Scan {

@@ -55,6 +55,10 @@ impl Highlight {
                 Highlight { vertices: vec![*a, *b], ..values(x.clone(), "the vector that L takes to zero") }
             }
             Statement::NegativeEnergy { x } => values(x.clone(), "a direction of negative energy"),
+            Statement::BelowCheeger { x, side } => Highlight {
+                vertices: side.clone(),
+                ..values(x.clone(), "a vector below the printed bound; circled: one side of the best partition")
+            },
             Statement::MassNotPositive { x } => values(x.clone(), "a direction of no positive mass"),
             Statement::Singular { x, .. } => values(x.clone(), "zero where values are prescribed, and not zero"),
             Statement::Overshoot { set, source, at, value, .. } => {

@@ -116,6 +116,11 @@ pub fn statement(evidence: &Evidence) -> String {
             number(*before),
             number(*threshold)
         ),
+        Statement::BelowCheeger { x, side } => format!(
+            "the partition into {} and the rest has the smallest constant λ_C, with the volume as printed, and a vector with {}              has a Rayleigh quotient below λ_C²/2",
+            tuple(side),
+            components(x)
+        ),
         Statement::Scan { checked, worst } => match worst.as_slice() {
             [] => format!("{} places were looked at and none violates the property", count(*checked)),
             [i] => format!("{} places were looked at; the worst, vertex {i}, is within the threshold", count(*checked)),

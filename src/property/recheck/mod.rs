@@ -20,6 +20,7 @@
 
 mod bareiss;
 mod certificate;
+mod cheeger;
 mod classes;
 mod dense;
 mod dirichlet;

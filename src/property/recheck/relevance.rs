@@ -57,6 +57,7 @@ fn describe(statement: &Statement) -> (&'static str, bool, &'static [&'static st
         Statement::MassNotPositive { .. } => ("mass-not-positive", true, &["MASS"]),
         Statement::MassShare { .. } => ("mass-share", true, &["MASS"]),
         Statement::Changed { .. } => ("changed", true, RELATIONS),
+        Statement::BelowCheeger { .. } => ("below-cheeger", true, &[]),
         Statement::Scan { .. } => (
             "scan",
             false,
@@ -116,5 +117,6 @@ pub(super) fn needs_everything(statement: &Statement) -> bool {
             | Statement::Singular { .. }
             | Statement::HeatLoss { .. }
             | Statement::MassTotal { .. }
+            | Statement::BelowCheeger { .. }
     )
 }

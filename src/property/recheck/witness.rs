@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use super::excerpt::{Material, Rows};
 use super::terms::{Terms, U};
-use super::{Answer, Rechecked, Refusal, check_threshold, dirichlet, energy, mass, moment, relevance, weight};
+use super::{Answer, Rechecked, Refusal, check_threshold, cheeger, dirichlet, energy, mass, moment, relevance, weight};
 use crate::property::evidence::{SparseVector, Statement};
 use crate::scalar::Scalar;
 
@@ -54,6 +54,7 @@ pub(super) fn decide(statement: &Statement, m: &Material) -> Answer {
         Statement::Changed { transformation, before, after, threshold, .. } => {
             changed(transformation, *before, *after, *threshold)
         }
+        Statement::BelowCheeger { x, side } => cheeger::below(m, x, side),
         certificate => Ok(Rechecked::Open(format!("'{}' is no witness", relevance::kind(certificate)))),
     }
 }
