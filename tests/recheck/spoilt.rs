@@ -232,6 +232,14 @@ fn spoilt_witnesses_about_masses_are_refused() {
         "another entry" => Statement::Changed { j, .. } => *j = 0;
         "out of range" => Statement::Changed { i, .. } => *i = 5;
         "no mass" => Statement::Changed { matrix, .. } => *matrix = Which::Mass);
+    let e = spoil!("below cheeger",
+        "a constant" => Statement::BelowCheeger { x, .. } => *x = vec![(0, 1.0), (1, 1.0), (2, 1.0), (3, 1.0)];
+        "no vector" => Statement::BelowCheeger { x, .. } => x.clear();
+        "a vertex alone" => Statement::BelowCheeger { side, .. } => drop(side.pop());
+        "a vertex twice" => Statement::BelowCheeger { side, .. } => *side = vec![1, 1];
+        "another graph's vertex" => Statement::BelowCheeger { side, .. } => side[0] = 7;
+        "no side" => Statement::BelowCheeger { side, .. } => side.clear());
+    spoil_row(&e, 0);
 }
 
 #[test]

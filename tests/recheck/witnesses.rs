@@ -20,7 +20,10 @@ fn example(
 }
 
 pub fn all() -> Vec<Example> {
-    [of_entries(), of_weights(), of_coordinates(), of_solutions(), of_masses()].into_iter().flatten().collect()
+    [of_entries(), of_weights(), of_coordinates(), of_solutions(), of_masses(), of_graphs()]
+        .into_iter()
+        .flatten()
+        .collect()
 }
 
 fn of_entries() -> Vec<Example> {
@@ -340,6 +343,21 @@ fn of_masses() -> Vec<Example> {
             (Open, Open),
         ),
     ]
+}
+
+/// The complete graph with four vertices: every pair of pairs has the constant 4/2, and λ̃₁ = 4/3 < 2²/2.
+fn of_graphs() -> Vec<Example> {
+    let pairs = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
+    let complete = operator(4, &laplacian(&pairs.map(|[i, j]| (i, j, 1.0))));
+    let excerpt = edges(rows(&complete, &[0, 1, 2, 3]), &pairs);
+    vec![example(
+        "below cheeger",
+        "CHEEGER",
+        (graph(4, &pairs, &[]), complete),
+        Statement::BelowCheeger { x: vec![(0, 1.0), (1, -1.0)], side: vec![0, 1] },
+        excerpt,
+        (Exact, Exact),
+    )]
 }
 
 pub fn named(name: &str) -> Example {

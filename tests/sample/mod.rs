@@ -253,6 +253,7 @@ pub fn witnesses() -> Vec<(&'static str, Statement, Excerpt)> {
             },
             Excerpt::default(),
         ),
+        ("CHEEGER", Statement::BelowCheeger { x: vec![(0, 1.0), (1, -1.0)], side: vec![0, 1] }, Excerpt::default()),
     ]
 }
 
