@@ -118,14 +118,15 @@ mod tests {
         for r in 0..k {
             for c in 0..k {
                 if c + 1 < k {
-                    join(r * k + c, r * k + c + 1, if (r * k + c) % 7 == 0 { w } else { 1.0 });
+                    join(r * k + c, r * k + c + 1, if (r * k + c).is_multiple_of(7) { w } else { 1.0 });
                 }
                 if r + 1 < k {
                     join(r * k + c, (r + 1) * k + c, 1.0);
                 }
             }
         }
-        let rim = |i: usize| [i / k == 0, i / k + 1 == k, i % k == 0, i % k + 1 == k].iter().filter(|b| **b).count();
+        let rim =
+            |i: usize| [i / k == 0, i / k + 1 == k, i.is_multiple_of(k), i % k + 1 == k].iter().filter(|b| **b).count();
         t.extend((0..k * k).map(|i| (i, i, rim(i) as f64)));
         Csr::from_triplets(k * k, k * k, &t)
     }
