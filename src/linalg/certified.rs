@@ -7,7 +7,7 @@
 //! # Accuracy
 //! Up to [`LARGEST_INVERSE`] unknowns g is a bound: from the computed inverse Y and `E = I − AY`,
 //! `|A⁻¹| v ≤ |Y| v / (1 − η)`, `η = max_k (|E| v)_k / v_k` with the rounding of the product included (Rump 2010, section 10).
-//! Above, [`influence`](super::influence) gives a bound where A is an H-matrix or positive definite. Elsewhere g is three times the
+//! Above, `influence.rs` gives a bound where A is an H-matrix or positive definite. Elsewhere g is three times the
 //! estimate of `‖A⁻¹ diag(v)‖_∞` of Hager (1984) and Higham (2002, section 15.3), the same for all rows: a measurement, not a bound.
 
 use super::Csr;
