@@ -7,8 +7,11 @@ pub mod certified;
 pub mod csr;
 pub mod exact;
 pub mod factor;
+pub mod full;
+mod influence;
 mod lanczos;
 pub mod rational;
+pub mod regular;
 pub mod spectrum;
 
 pub use csr::Csr;

@@ -2,36 +2,40 @@
 //!
 //! Every residual is measured against a **local** scale and two thresholds. Up to `explained` the rounding of a good
 //! implementation accounts for it: the property holds. Beyond `defect` not even a poor but correct one can have produced
-//! it: the property fails. In between the verdict is undecided. `u = 2⁻⁵³`.
+//! it: the property fails. In between the verdict is undecided. `u = 2⁻⁵³`. This is the short version; `docs/tolerance.md` has the
+//! derivations step by step, the largest defect that can hide for each property, and what it comes to on three meshes.
 //!
 //! # One cotangent
 //! The coordinates are exact, so edge vectors carry one rounding and turn by at most u each: the angle θ between two of them
-//! changes by 2u, its cotangent by `2u/sin²θ`. The dot product is off by `3u |a||b|` and the cross product too, which
-//! adds `3u/sin θ + 3u |cot θ|/sin θ`. Together `|δ cot θ| ≤ 8u / sin²θ`, and `4u / sin²θ` for the weight `½ cot θ`.
+//! changes by 2u, its cotangent by `2u/sin²θ`. The dot product is off by `3u |a||b|`, which adds `3u/sin θ`; the cross product by
+//! `2.4u |a||b|`, its norm and the quotient by 3.5u relative, which adds `2.4u |cot θ|/sin θ + 3.5u |cot θ|`. The sum times `sin²θ/u` is
+//! at most 7.6: `|δ cot θ| ≤ 8u / sin²θ`, and `4u / sin²θ` for the weight `½ cot θ`.
 //!
 //! # A row
 //! A triangle puts `½ (cot θ_j + cot θ_k) = sin θ_i / (2 sin θ_j sin θ_k) > 0` on the diagonal of row i: contributions of
 //! different triangles do not cancel there, so `L_ii ≤ s_i = Σ_k |L_ik|` is a scale that no sliver elsewhere inflates. Its two
 //! off-diagonal terms are off by `4u (1/sin²θ_j + 1/sin²θ_k)`; over the diagonal term that is
-//! `8u (sin θ_j / sin θ_k + sin θ_k / sin θ_j) / sin θ_i`, and since `sin θ_j ≤ sin θ_i + sin θ_k` it is at most `32 u Q`,
-//! `Q = 1/sin θ_min`. Adding up m entries costs `2m u s_i` in the matrix and at most as much in our sum:
+//! `8u (sin θ_j / sin θ_k + sin θ_k / sin θ_j) / sin θ_i`, and since `sin θ_j ≤ sin θ_i + sin θ_k` it is at most `24 u Q`,
+//! `Q = 1/sin θ_min`. Adding up m entries costs `2m u s_i` in the matrix, at most `2 Q u s_i` more where the terms of a triangle cancel
+//! on the way, and at most `2m u s_i` in our sum:
 //!
 //! `explained_i = (4m + 32 Q_i) u s_i`, Q_i the largest Q at vertex i (1 on graphs).
 //!
 //! # Algorithms that start from edge lengths
-//! A length is off by 2u relative, and Heron's formula divides by `s − a`, which for a cap of relative height 1/Q is of
-//! the order 1/Q²: the area and all cotangents are off by a multiple of `Q² u` relative. So
+//! A length is off by 4u relative, and Heron's formula divides by `s − a`, which for a cap of relative height 1/2Q is of
+//! the order 1/4Q²: the area and all cotangents are off by about `12 Q² u` relative. So
 //!
 //! `defect_i = 4 (4m + 32 Q_i²) u s_i`.
 //!
-//! At a smallest angle of 30° (Q = 2) the two are a factor of 6 apart, at one degree (Q = 57) about 200; past Q ≈ 1e7
+//! At a smallest angle of 30° (Q = 2) the two are a factor of 7 apart, at one degree (Q = 57) 230; past Q ≈ 8e6
 //! `defect_i ≥ s_i`, which no residual exceeds: on slivers rounding is never mistaken for a defect. Conversely nothing above
 //! [`LARGEST_EXPLAINED`] of its scale is called explained, however bad the triangles.
 //!
 //! # A moment
 //! `Σ_j L_ij (x_j − x_i)` is compared with `S_i = Σ_j |L_ij| |x_j − x_i|`, Euclidean lengths. With D the circumdiameter,
-//! `|x_j − x_i| = D sin θ_k`, so a triangle's error is `4u D (1/sin θ_j + 1/sin θ_k)`, against a share in `S_i` of at least
-//! `½D max(sin θ_i, |cos θ_j| + |cos θ_k|)`: again at most `32 u Q`. The factors of a row apply to `S_i`.
+//! `|x_j − x_i| = D sin θ_k`, so a triangle's error is `4u D (1/sin θ_j + 1/sin θ_k)`, against the share of its diagonal term times
+//! its shorter edge at i: again at most `24 u Q`. The factors of a row apply to `S_i`. Where the weights of two triangles at an edge
+//! cancel, `S_i` may be smaller than the sum of the shares, so that such verdicts are "measured".
 //!
 //! # A single weight
 //! What an entry owes to cancellation is known edge by edge: `ρ_ij = Σ 1/sin²θ` over the angles opposite ij. It is brought to
@@ -52,8 +56,9 @@
 //! Q of the row's vertices in place of Q_i alone, and with nothing finer than rows (`measure::rounding`).
 //!
 //! # Moved coordinates
-//! Moving the coordinates by δ turns an angle at edges no shorter than ℓ by at most `2δ/ℓ` at either edge, which changes what is
-//! made of it by a relative `4Q δ/ℓ`: `8Q δ/ℓ` for the two triangles at an edge, and eight times that before it is a defect.
+//! Moving the coordinates by δ turns an angle at edges no shorter than ℓ by at most `2δ/ℓ` at either edge, and `½ cot θ` by
+//! `2δ/ℓ sin²θ`: an entry by `8Q δ/ℓ` of the diagonal terms of the triangles beside it, the diagonal `ℓ_a²/4A` itself by less. Eight
+//! times that is a defect.
 //!
 //! # A sum, and a number computed twice
 //! A row of m entries that sums to zero before rounding does so up to `4m u s_i` after it, each entry being a sum of two or more
