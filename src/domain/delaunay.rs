@@ -145,7 +145,7 @@ pub fn sign_of_cotangents(corners: &[[[f64; 3]; 3]]) -> Option<Ordering> {
 }
 
 /// The cotangent `d/√a` at the first of three points as (d, a), exactly; `None` if they lie on a line.
-fn quotient(corner: [[f64; 3]; 3]) -> Option<(Rational, Rational)> {
+pub(super) fn quotient(corner: [[f64; 3]; 3]) -> Option<(Rational, Rational)> {
     let [k, p, q] = corner.map(|x| x.map(|x| Rational::exactly(x).unwrap_or_else(Rational::zero)));
     let u: [Rational; 3] = std::array::from_fn(|c| p[c].clone() - k[c].clone());
     let v: [Rational; 3] = std::array::from_fn(|c| q[c].clone() - k[c].clone());
