@@ -15,7 +15,7 @@
 //! [`operator::convention`](crate::operator::convention).
 //!
 //! # Guarantees
-//! * FIN, LOC, SYM, NULL, PSD, ENERGY, PERM, UNION, REACH: always, non-manifold meshes included.
+//! * FIN, LOC, SYM, NULL, PSD, ENERGY, ACC, PERM, UNION, REACH: always, non-manifold meshes included.
 //! * KER: of the exact operator always; promised where angles are at least 1°, so that no eigenvalue drowns in rounding.
 //! * LIN, FLUX: on manifolds. *Exception*: around a triangle that was left out, and at an edge with three faces, the star is
 //!   not a cycle and the fluxes do not cancel.
@@ -89,6 +89,7 @@ pub static ENTRY: Laplacian = Laplacian {
         Promise::holds("NULL"),
         Promise::holds("PSD"),
         Promise::holds("ENERGY"),
+        Promise::holds("ACC"),
         Promise::holds("PERM"),
         Promise::holds("UNION"),
         Promise::holds("REACH"),
