@@ -67,7 +67,9 @@ fn triangles(c: &mut Criterion) {
 fn half_sums(c: &mut Criterion) {
     let kite = |h: f64| [[0.0, -1.0, 0.0], [0.3, h, 0.1]].map(|a| [Vec3::from(a), Vec3::x(), -Vec3::x()]);
     let mut group = c.benchmark_group("half-sum of two cotangents");
-    for (name, corners) in [("of one sign", kite(2.0)), ("cancelling", kite(0.9)), ("in the last place", kite(0.948683298050514))] {
+    for (name, corners) in
+        [("of one sign", kite(2.0)), ("cancelling", kite(0.9)), ("in the last place", kite(0.948683298050514))]
+    {
         let cotangents = corners.map(|c| cotangent::of_triangle(c).values[0]);
         group.bench_function(name, |b| {
             b.iter(|| cotangent::half_sum(black_box(&cotangents), || black_box(corners).into_iter()));

@@ -213,3 +213,14 @@ fn a_degenerate_triangle_has_no_finite_cotangent() {
     assert!(found.values.iter().all(|c| c.is_infinite()) && found.doubled_area == 0.0, "{found:?}");
     assert!(cotangent::precise_half_sum([line]).high.is_nan());
 }
+
+#[test]
+fn a_cotangent_below_the_normal_numbers_keeps_its_sign() {
+    // cot = 1e-200 · 1e-150 / 1 at the origin, in a triangle with sides of 1e150 and 1.
+    let (p, q) = (Vec3::new(1e150, 0.0, 0.0), Vec3::new(1e-200, 1e150, 0.0));
+    for (q, sign) in [(q, 1.0), (Vec3::new(-1e-200, 1e150, 0.0), -1.0), (Vec3::new(0.0, 1e150, 0.0), 0.0)] {
+        let found = cotangent::cotangent(Vec3::zeros(), p, q);
+        assert_eq!(found, sign * f64::MIN_POSITIVE);
+        assert_eq!(cotangent::half_sum(&[found], || std::iter::empty()), sign * f64::MIN_POSITIVE / 2.0);
+    }
+}

@@ -78,16 +78,14 @@ fn carefully(corners: [Vec3; 3], points: &[[f64; 3]; 3], heads: &Heads) -> Cotan
         false => rounded(&[points[k], points[(k + 1) % 3], points[(k + 2) % 3]]),
     };
     let found = [one(0), one(1), one(2)];
-    let doubled_area = if heads.area_suffices() { heads.doubled_area } else { largest_doubled_area(corners) };
+    let doubled_area = match heads.area_suffices() {
+        true => heads.doubled_area,
+        false => distilled::doubled_area(points).unwrap_or_else(|| {
+            let [a, b, c] = corners;
+            doubled_area_in_space(a, b, c)
+        }),
+    };
     Cotangents { values: found.map(|f| f.0), doubled_area, ways: found.map(|f| f.1) }
-}
-
-/// Twice the area from the corner with the largest sine, which is opposite the longest side.
-fn largest_doubled_area(corners: [Vec3; 3]) -> f64 {
-    let at = |k: usize| corners[k % 3];
-    let length: [f64; 3] = std::array::from_fn(|k| (at(k + 2) - at(k + 1)).amax());
-    let apex = (1..3).fold(0, |best, k| if length[k] > length[best] { k } else { best });
-    doubled_area_in_space(at(apex), at(apex + 1), at(apex + 2))
 }
 
 /// The cotangent of the angle at `apex`: one of [`of_triangle`].

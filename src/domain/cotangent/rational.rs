@@ -73,9 +73,16 @@ fn root(d: &Rational, a: &Rational, bits: isize) -> Rational {
     if d.cmp_zero() == Ordering::Less { -magnitude } else { magnitude }
 }
 
-/// The nearest `f64` and the rest, rounded.
+/// The nearest `f64` and the rest, rounded. What is not zero keeps its sign: below the normal numbers it becomes the smallest of them.
 fn rounded(x: &Rational) -> Twofold {
     let high = x.approximate();
+    if high.abs() < f64::MIN_POSITIVE {
+        return Twofold::from(match x.cmp_zero() {
+            Ordering::Less => -f64::MIN_POSITIVE,
+            Ordering::Equal => 0.0,
+            Ordering::Greater => f64::MIN_POSITIVE,
+        });
+    }
     match Rational::exactly(high) {
         Some(near) => Twofold { high, low: (x.clone() - near).approximate() },
         None => Twofold::from(high),
