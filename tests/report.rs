@@ -250,7 +250,7 @@ fn the_sample_has_every_kind_of_statement() {
     assert_eq!(found.len(), KINDS, "a kind of evidence is missing in the sample");
 }
 
-const KINDS: usize = 29;
+const KINDS: usize = 30;
 
 /// The match makes a new kind of statement an error here, so that it is given a sentence, a picture and a sample.
 fn kind(statement: &Statement) -> &'static str {
@@ -264,6 +264,7 @@ fn kind(statement: &Statement) -> &'static str {
         Statement::NegativeEnergy { .. } => "NegativeEnergy",
         Statement::Moment { .. } => "Moment",
         Statement::Energy { .. } => "Energy",
+        Statement::Inaccurate { .. } => "Inaccurate",
         Statement::BothSigns { .. } => "BothSigns",
         Statement::NoWeight { .. } => "NoWeight",
         Statement::NotConvex { .. } => "NotConvex",
