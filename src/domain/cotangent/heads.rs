@@ -134,10 +134,14 @@ impl Heads {
         let exponent = (largest.to_bits() >> 52) as i32 - 1023;
         let halves = [-exponent / 2, -exponent - -exponent / 2].map(power_of_two);
         let brought = |edges: [[f64; 3]; 3]| edges.map(|edge| edge.map(|x| x * halves[0] * halves[1]));
+        let before = [high, low];
         let (high, low) = (brought(high), brought(low));
+        // A component that vanishes on the way is no zero, and a dot product of such none either.
+        let kept = |(x, y): (&f64, &f64)| *x == 0.0 || y.abs() >= f64::MIN_POSITIVE;
+        let lossless = before.iter().flatten().flatten().zip([high, low].iter().flatten().flatten()).all(kept);
         let sizes = [size(&high[0]), size(&high[1]), size(&high[2])];
         let mut found = Self::of_edges(&high, &low, &sizes);
-        found.area_is_enough &= sizes.iter().all(|s| USUAL.contains(s));
+        found.area_is_enough &= lossless && sizes.iter().all(|s| USUAL.contains(s));
         halves.iter().for_each(|half| found.doubled_area = found.doubled_area / half / half);
         found
     }
