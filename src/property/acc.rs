@@ -141,7 +141,7 @@ fn weigh(trial: &Trial, surface: &Surface, triangles: &Triangles) -> (Vec<Weighe
             let condition = triangles.edge_condition[edge];
             let explained = 4.0 * UNIT_ROUNDOFF * (given.abs() + triangles.opposite[edge]);
             let threshold = Threshold {
-                explained: explained.min(LARGEST_EXPLAINED * size.max(exact.high.abs())),
+                explained: explained.min(LARGEST_EXPLAINED * trial.scales().rows[i]),
                 defect: 4.0 * condition * explained,
             };
             let error = ((given - exact.high) - exact.low).abs();
@@ -161,6 +161,11 @@ fn is_proper([a, b, c]: [[f64; 3]; 3]) -> bool {
 const CLASSES: [(f64, &str); 4] =
     [(10.0, "10° or more"), (1.0, "1° to 10°"), (0.01, "0.01° to 1°"), (0.0, "below 0.01°")];
 
+/// A number of units in the last place.
+fn count(ulps: f64) -> String {
+    if ulps < 1e5 { format!("{ulps:.1}") } else { format!("{ulps:.1e}") }
+}
+
 /// The errors in units in the last place by the quality of the triangles, and the worst of all.
 fn distribution(weights: &[Weighed]) -> Vec<String> {
     let mut notes = Vec::new();
@@ -176,10 +181,10 @@ fn distribution(weights: &[Weighed]) -> Vec<String> {
         let at = |share: f64| ulps[((ulps.len() as f64 * share).ceil() as usize).clamp(1, ulps.len()) - 1];
         let last = ulps.len();
         notes.push(format!(
-            "smallest angle {name}: {last} weights, median {:.1} ulp, 99 % within {:.1}, all within {:.1}",
-            at(0.5),
-            at(0.99),
-            at(1.0)
+            "smallest angle {name}: {last} weights, median {} ulp, 99 % within {}, all within {}",
+            count(at(0.5)),
+            count(at(0.99)),
+            count(at(1.0))
         ));
     }
     let zeros = weights.iter().filter(|w| w.exact.high == 0.0);
@@ -190,7 +195,13 @@ fn distribution(weights: &[Weighed]) -> Vec<String> {
     }
     let worst = weights.iter().filter_map(|w| Some((w, w.ulps()?))).max_by(|a, b| a.1.total_cmp(&b.1));
     if let Some((w, ulps)) = worst.filter(|(_, ulps)| *ulps > 0.0) {
-        notes.push(format!("furthest off is {:e} at {:?}, by {ulps:.1} ulp of {:e}", w.given, w.place, w.exact.high));
+        notes.push(format!(
+            "furthest off is {:e} at {:?}, by {} ulp of {:e}",
+            w.given,
+            w.place,
+            count(ulps),
+            w.exact.high
+        ));
     }
     notes
 }
