@@ -370,3 +370,14 @@ fn masses_at_the_wrong_vertices_are_caught_by_their_shares_though_the_total_is_r
     };
     assert_eq!((judged(&diagonal), judged(&turned)), (Status::Holds, Status::Fails));
 }
+
+#[test]
+fn the_weights_of_libigl_are_as_accurate_as_rounding_allows_and_the_verdict_says_how_accurate() {
+    for fixture in Fixture::all() {
+        let verdict = judge("ACC", &fixture.domain, &fixture.operator("voronoi"));
+        let reason = verdict.reason().unwrap_or_default().to_string();
+        println!("{}: {} {:?} {reason} {:?}", fixture.name, verdict.status(), verdict.margin, verdict.notes);
+        assert!(matches!(verdict.status(), Status::Holds | Status::Undecided), "{}: {verdict:?}", fixture.name);
+        assert!(verdict.notes.iter().any(|note| note.contains(" ulp")), "{}: {:?}", fixture.name, verdict.notes);
+    }
+}

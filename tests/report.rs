@@ -264,6 +264,7 @@ fn kind(statement: &Statement) -> &'static str {
         Statement::NegativeEnergy { .. } => "NegativeEnergy",
         Statement::Moment { .. } => "Moment",
         Statement::Energy { .. } => "Energy",
+        Statement::Inaccurate { .. } => "Inaccurate",
         Statement::BothSigns { .. } => "BothSigns",
         Statement::NoWeight { .. } => "NoWeight",
         Statement::NotConvex { .. } => "NotConvex",

@@ -145,7 +145,7 @@ pub fn sign_of_cotangents(corners: &[[[f64; 3]; 3]]) -> Option<Ordering> {
 }
 
 /// The cotangent `d/√a` at the first of three points as (d, a), exactly; `None` if they lie on a line.
-fn quotient(corner: [[f64; 3]; 3]) -> Option<(Rational, Rational)> {
+pub(super) fn quotient(corner: [[f64; 3]; 3]) -> Option<(Rational, Rational)> {
     let [k, p, q] = corner.map(|x| x.map(|x| Rational::exactly(x).unwrap_or_else(Rational::zero)));
     let u: [Rational; 3] = std::array::from_fn(|c| p[c].clone() - k[c].clone());
     let v: [Rational; 3] = std::array::from_fn(|c| q[c].clone() - k[c].clone());
@@ -154,16 +154,18 @@ fn quotient(corner: [[f64; 3]; 3]) -> Option<(Rational, Rational)> {
     (a.cmp_zero() != Ordering::Equal).then(|| (dot(&u, &v), a))
 }
 
-/// The floating-point answer where its error bound `Σ 8u/sin²θ = Σ 8u (1 + cot²θ)` decides, away from over- and underflow.
+/// The floating-point answer where its error bound decides: cotangents are good to 1¼u, and adding up m of them costs m − 1 more
+/// of the magnitudes.
 fn filtered(corners: &[[[f64; 3]; 3]]) -> Option<Ordering> {
     let (mut sum, mut bound) = (0.0, 0.0);
     for corner in corners {
         let [apex, p, q] = corner.map(Vec3::from);
         let cot = geometry::cotangent(apex, p, q);
         sum += cot;
-        // Four times the bound of `cotangent`: the slack covers the rounding of this sum and of the bound itself.
-        bound += 16.0 * f64::EPSILON * (1.0 + cot * cot);
+        bound += cot.abs();
     }
+    // One u more covers the rounding of the bound; what underflows is not decided here.
+    let bound = (corners.len() as f64 + 2.0) * HALF_ULP * bound + f64::MIN_POSITIVE;
     (sum.is_finite() && sum.abs() > bound).then(|| sum.cmp_zero())
 }
 

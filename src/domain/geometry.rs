@@ -4,6 +4,7 @@ use std::cmp::Ordering;
 
 use robust::{Coord, Coord3D};
 
+pub use super::cotangent::cotangent;
 use crate::scalar::{Rational, Scalar};
 
 /// A vector in space.
@@ -149,20 +150,6 @@ pub fn angle(apex: Vec3, p: Vec3, q: Vec3) -> f64 {
     let corner = Corner::at(apex, p, q);
     let (magnitude, direction) = corner.normal();
     (magnitude * direction).atan2(corner.dot)
-}
-
-/// The cotangent of the angle at `apex`, `u·v / |u × v|` with the edge vectors scaled to magnitude one; infinite or NaN when
-/// the triangle is degenerate.
-///
-/// # Accuracy
-/// For an angle θ the absolute error is at most `8u / sin²θ`, u = 2⁻⁵³: coordinate differences turn either side by at most u
-/// (2 in units of u/sin²θ), the dot product errs by 3 sin θ, the cross product by √2 |cos θ|, and its own rounding, norm and
-/// division add 4.5 |cos θ| sin θ: together below 7.5. Scaling is by powers of two and exact. Where sin θ is below about 2⁻²⁶
-/// the products are formed in rationals, and the relative error is below 8u.
-pub fn cotangent(apex: Vec3, p: Vec3, q: Vec3) -> f64 {
-    let corner = Corner::at(apex, p, q);
-    let (magnitude, direction) = corner.normal();
-    corner.dot / magnitude / direction
 }
 
 /// Twice the area of a triangle in space, `|(p − apex) × (q − apex)|`: the error is relative, at most `8u / sin θ` with θ the

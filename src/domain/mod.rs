@@ -3,6 +3,7 @@
 //! A domain is validated when it is built. Everything about it — closed, manifold, oriented, planar, Delaunay, genus,
 //! degenerate faces, smallest angle — is a computed fact ([`Facts`]), never a declaration.
 
+pub mod cotangent;
 pub mod delaunay;
 mod digest;
 mod facts;
@@ -13,6 +14,7 @@ pub mod intrinsic;
 mod points;
 mod surface;
 pub mod topology;
+mod twofold;
 mod volume;
 
 pub use facts::{Facts, SurfaceFacts};

@@ -15,7 +15,7 @@
 //! [`operator::convention`](crate::operator::convention).
 //!
 //! # Guarantees
-//! * FIN, LOC, SYM, NULL, PSD, ENERGY, PERM, UNION, REACH: always, non-manifold meshes included.
+//! * FIN, LOC, SYM, NULL, PSD, ENERGY, ACC, PERM, UNION, REACH: always, non-manifold meshes included.
 //! * KER: of the exact operator always; promised where angles are at least 1°, so that no eigenvalue drowns in rounding.
 //! * LIN, FLUX: on manifolds. *Exception*: around a triangle that was left out, and at an edge with three faces, the star is
 //!   not a cycle and the fluxes do not cancel.
@@ -43,8 +43,8 @@
 //! than two triangles all of them are summed, and the operator notes it. An isolated vertex has an empty row and mass zero.
 //!
 //! # Cost and accuracy
-//! O(F log valence). A weight has an absolute error below `4u Σ 1/sin²θ` over its angles. Its sign is exact: where rounding
-//! could decide, the sum of two cotangents is compared in rational arithmetic, and a true zero is stored as zero.
+//! O(F log valence). A weight is within 4 units in the last place of the exact one, whatever the angles and however much of the sum
+//! cancels ([`domain::cotangent`](crate::domain::cotangent)). So its sign is exact, and a true zero is stored as zero.
 //!
 //! # References
 //! \[macneal1949\], \[duffin1959\] (plane), \[dziuk1988\] (surfaces, convergence), \[pinkall-polthier1993\];
@@ -66,9 +66,9 @@
 
 use std::cmp::Ordering;
 
-use super::shape::{Triangles, with_sign};
+use super::shape::{Flank, Triangles};
 use super::{BuildError, Fact, Laplacian, Promise, When, on_triangles, stiffness};
-use crate::domain::{Domain, Surface, delaunay};
+use crate::domain::{Domain, Surface, cotangent, delaunay};
 use crate::linalg::Csr;
 use crate::operator::Operator;
 use crate::parameter::Settings;
@@ -89,6 +89,7 @@ pub static ENTRY: Laplacian = Laplacian {
         Promise::holds("NULL"),
         Promise::holds("PSD"),
         Promise::holds("ENERGY"),
+        Promise::holds("ACC"),
         Promise::holds("PERM"),
         Promise::holds("UNION"),
         Promise::holds("REACH"),
@@ -132,14 +133,33 @@ pub static ENTRY: Laplacian = Laplacian {
 
 fn build(domain: &Domain, settings: &Settings) -> Result<Operator, BuildError> {
     let operator = on_triangles::operator(ENTRY.id, domain, settings, |triangles, edge| {
-        let weight = with_sign(weight(triangles, edge), sign(triangles, edge));
+        let weight = weight(triangles, edge);
         [weight, weight]
     })?;
     Ok(operator.with_exact_signs())
 }
 
-/// `½ Σ cot` over the angles opposite an edge.
-fn weight<S: Scalar>(triangles: &Triangles<S>, edge: usize) -> S {
+/// `½ Σ cot` over the angles opposite an edge, with a relative error below one: its sign is exact.
+fn weight(triangles: &Triangles, edge: usize) -> f64 {
+    let (mut cotangents, mut count) = ([0.0; 2], 0);
+    for flank in triangles.beside(edge) {
+        let [_, _, apex] = flank.corners;
+        if count < 2 {
+            cotangents[count] = flank.shape.cotangents[apex];
+        }
+        count += 1;
+    }
+    let surface = triangles.surface();
+    let [i, j] = surface.topology().edges()[edge].map(|v| surface.point(v));
+    let corner = |flank: Flank<f64>| [surface.point(flank.opposite), i, j];
+    if count > 2 {
+        return cotangent::precise_half_sum(triangles.beside(edge).map(corner)).high;
+    }
+    cotangent::half_sum(&cotangents[..count], || triangles.beside(edge).map(corner))
+}
+
+/// `½ Σ cot` over any scalar.
+fn weight_over<S: Scalar>(triangles: &Triangles<S>, edge: usize) -> S {
     triangles.beside(edge).fold(S::zero(), |sum, flank| {
         let [_, _, apex] = flank.corners;
         sum + S::half() * flank.shape.cotangents[apex].clone()
@@ -160,6 +180,7 @@ pub(super) fn sign(triangles: &Triangles, edge: usize) -> Ordering {
 pub fn stiffness_in_plane<S: Scalar>(surface: &Surface) -> Option<Csr<S>> {
     let triangles = Triangles::<S>::in_plane(surface)?;
     let edges = surface.topology().edges().iter().enumerate();
-    let weights: Vec<_> = edges.map(|(e, &ends)| (ends, [weight(&triangles, e), weight(&triangles, e)])).collect();
+    let weights: Vec<_> =
+        edges.map(|(e, &ends)| (ends, [weight_over(&triangles, e), weight_over(&triangles, e)])).collect();
     Some(stiffness::from_weights(surface.positions().len(), &weights))
 }

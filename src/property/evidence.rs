@@ -190,6 +190,19 @@ pub enum Statement {
         /// The vertex with the largest share.
         star: usize,
     },
+    /// ACC: `|−L_ij − ½ Σ cot| > threshold`, the sum over the angles opposite the edge. Row i, faces at the edge with their corners.
+    Inaccurate {
+        /// Row.
+        i: usize,
+        /// Column.
+        j: usize,
+        /// The exact weight, rounded.
+        exact: f64,
+        /// How far `−L_ij` is off.
+        error: f64,
+        /// The threshold in force there.
+        threshold: f64,
+    },
     /// MAX-local: row i has a positive weight to `positive` and a negative weight to `negative`. Row i.
     BothSigns {
         /// Row.

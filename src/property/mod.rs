@@ -33,6 +33,7 @@ catalogue! {
     lin,
     energy,
     flux,
+    acc,
     mvp,
     mass,
     max_local,

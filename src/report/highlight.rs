@@ -38,6 +38,7 @@ impl Highlight {
             Statement::NotFinite { i, j, .. }
             | Statement::Asymmetry { i, j, .. }
             | Statement::MassAsymmetry { i, j, .. }
+            | Statement::Inaccurate { i, j, .. }
             | Statement::Changed { i, j, .. }
             | Statement::NotConvex { i, j } => between(*i, *j),
             Statement::RowSum { i, .. }

@@ -102,6 +102,12 @@ pub fn statement(evidence: &Evidence) -> String {
             number(*expected),
             number(*threshold)
         ),
+        Statement::Inaccurate { i, j, exact, error, threshold } => format!(
+            "the weight of ({i}, {j}) is {} where ½ Σ cot over the angles opposite is {exact:e}: it is off by {} (threshold {})",
+            approximately(entry(&x.rows, *i, *j).map(|v| -v)),
+            number(*error),
+            number(*threshold)
+        ),
         Statement::MassShare { i, lower, upper } => format!(
             "vertex {i} has the mass {}, outside the bounds {} and {} that its star sets",
             approximately(row(&x.mass_rows, *i).map(|r| r.entries.iter().map(|e| e.1).sum())),

@@ -224,6 +224,15 @@ fn spoilt_witnesses_about_masses_are_refused() {
         "turned bounds" => Statement::MassShare { lower, upper, .. } => (*lower, *upper) = (2.0, 1.0);
         "another vertex" => Statement::MassShare { i, .. } => *i = 0);
     e.assert_refused("a face dropped", |v| drop(v.excerpt.faces.pop()));
+    let e = spoil!("inaccurate weight",
+        "threshold" => Statement::Inaccurate { threshold, .. } => *threshold = 0.5;
+        "exact weight" => Statement::Inaccurate { exact, .. } => *exact = 1.001;
+        "error" => Statement::Inaccurate { error, .. } => *error = 0.6;
+        "another edge" => Statement::Inaccurate { j, .. } => *j = 1;
+        "no edge" => Statement::Inaccurate { j, .. } => *j = 0);
+    e.assert_refused("a face dropped", |v| drop(v.excerpt.faces.pop()));
+    e.assert_refused("all faces dropped", |v| v.excerpt.faces.clear());
+    e.assert_refused("a position moved", |v| v.excerpt.positions[1].1[0] = 5.0);
     spoil!("changed entry",
         "before" => Statement::Changed { before, .. } => *before = -1.0001;
         "after" => Statement::Changed { after, .. } => *after = -1.0;

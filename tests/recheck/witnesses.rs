@@ -118,7 +118,17 @@ fn of_weights() -> Vec<Example> {
     let flipped = center(&[(4, 4, -4.0)]);
     let flipped_rows = rows(&flipped, &[4]);
     let exact = (Exact, Exact);
+    let inaccurate = operator(5, &with(square_cotan(), &[(0, 4, -1.5)]));
+    let spoke = faces(positions(rows(&inaccurate, &[0]), &square(), &[0, 1, 3, 4]), &square(), &[0, 3]);
     vec![
+        example(
+            "inaccurate weight",
+            "ACC",
+            (square(), inaccurate),
+            Statement::Inaccurate { i: 0, j: 4, exact: 1.0, error: 0.5, threshold: 1e-3 },
+            spoke,
+            (Bounded, Bounded),
+        ),
         example(
             "negative weight",
             "POS",

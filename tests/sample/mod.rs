@@ -212,6 +212,11 @@ pub fn witnesses() -> Vec<(&'static str, Statement, Excerpt)> {
             Excerpt::default(),
         ),
         (
+            "ACC",
+            Statement::Inaccurate { i: 3, j: 7, exact: 1.25, error: 0.04, threshold: 3e-14 },
+            rows(vec![row(3, &[(3, 1.0), (7, -1.21)])]),
+        ),
+        (
             "MAX-local",
             Statement::BothSigns { i: 3, positive: 7, negative: 1 },
             rows(vec![row(3, &[(1, 0.31), (3, 0.9), (7, -1.21)])]),

@@ -246,7 +246,7 @@ pub(super) fn check_whole(statement: &Statement, excerpt: &Excerpt, domain: &Dom
             in_range(i)?;
             check_star(i, excerpt, domain)
         }
-        Statement::Weight { i, j, .. } => {
+        Statement::Weight { i, j, .. } | Statement::Inaccurate { i, j, .. } => {
             in_range(i).and(in_range(j))?;
             let Some(surface) = domain.as_surface() else { return Ok(()) };
             let sides = surface.topology().edge_between(i, j).map_or(&[][..], |e| surface.topology().sides(e));

@@ -18,6 +18,7 @@
 //! again, the certificate does not name the sets it tried, the matrix is too large for the second way. A margin that a
 //! checker reports is not verified; the predicate is.
 
+mod accuracy;
 mod bareiss;
 mod certificate;
 mod cheeger;

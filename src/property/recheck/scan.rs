@@ -3,7 +3,7 @@
 
 use super::leeway::Leeway;
 use super::terms::Terms;
-use super::{Answer, Rechecked, Refusal, place, precision, shares};
+use super::{Answer, Rechecked, Refusal, accuracy, place, precision, shares};
 use crate::domain::Domain;
 use crate::linalg::Csr;
 use crate::operator::{Operator, Signs};
@@ -41,6 +41,7 @@ pub(super) fn decide(property: &str, domain: &Domain, operator: &Operator, check
         "LIN" => precision::linear(&scan),
         "FLUX" => precision::flux(&scan),
         "ENERGY" => precision::energy(&scan),
+        "ACC" => accuracy::scan(&scan),
         "MASS" => return shares::scan(domain, operator),
         other => return Ok(Rechecked::Open(format!("this program knows no predicate '{other}' to scan for"))),
     }?;

@@ -5,7 +5,9 @@ use std::collections::BTreeMap;
 
 use super::excerpt::{Material, Rows};
 use super::terms::{Terms, U};
-use super::{Answer, Rechecked, Refusal, check_threshold, cheeger, dirichlet, energy, mass, moment, relevance, weight};
+use super::{
+    Answer, Rechecked, Refusal, accuracy, check_threshold, cheeger, dirichlet, energy, mass, moment, relevance, weight,
+};
 use crate::property::evidence::{SparseVector, Statement};
 use crate::scalar::Scalar;
 
@@ -33,6 +35,9 @@ pub(super) fn decide(statement: &Statement, m: &Material) -> Answer {
         Statement::Energy { axis, other, trace, found, expected, threshold, star } => {
             let entry = energy::Entry { axis: *axis, other: *other, trace: *trace };
             energy::decide(m, entry, *found, *expected, *threshold, *star)
+        }
+        Statement::Inaccurate { i, j, exact, error, threshold } => {
+            accuracy::decide(m, [*i, *j], *exact, *error, *threshold)
         }
         Statement::BothSigns { i, positive, negative } => {
             sign(&m.rows, *i, *positive, Ordering::Less)?;

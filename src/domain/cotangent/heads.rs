@@ -1,0 +1,232 @@
+//! The cheap way: edge vectors cut in two at a common bit, so that products of the upper parts add up without rounding.
+//!
+//! # Formula
+//! An edge is a difference of two points, held exactly as a rounded difference and its error. With `2^e ≤ size < 2^(e+1)`, size
+//! the largest of its three components, every component is `head + tail`: the head a multiple of `2^(e−24)`, so that it has 25
+//! bits, the tail the rest, rounded once. Then
+//! ```text
+//! d = Σ H_k G_k  +  Σ (H_k Q_k + R_k G_k + R_k Q_k)          H, R of one edge, G, Q of the other
+//! ```
+//! and likewise each component of the cross product n. The first sum has terms of 50 bits on a common grid: it is formed without
+//! any rounding. The second is 2⁻²⁵ of the first and may be rounded as it comes. `|n|²` is formed from n in the same way; the root and the quotient
+//! are corrected by their residuals, which are formed likewise.
+//!
+//! # Error
+//! With a and b the sizes of the two edges, `u = 2⁻⁵³`, up to factors `1 + 2⁻²⁰` for which the last step leaves room:
+//! * A tail is at most `2⁻²⁵ a` and rounded by `2⁻⁷⁸ a`.
+//! * d: three times two products of a head with a tail, each rounded five times at most (product, two sums, two sums):
+//!   `5u · 6 · 2⁻²⁵ ab = 30 · 2⁻⁷⁸ ab`; the rounding of the tails gives `6 · 2⁻⁷⁸ ab`: `36 · 2⁻⁷⁸ ab < 2⁻⁷² ab`.
+//! * n: per component `4u · 4 · 2⁻²⁵ ab + 4 · 2⁻⁷⁸ ab`, and at most `8 · 2⁻⁷⁸ ab` where the sum of upper and lower part is taken apart again
+//!   though the lower one is larger: `28 · 2⁻⁷⁸ ab`, and √3 times that for the vector: `< 2⁻⁷² ab`.
+//! * |n|², the root, the quotient with their residuals: each a few times `2⁻⁷⁸` relative, together below `2⁻⁷³`.
+//! * Underflow adds 2⁻¹⁰⁷⁵ a product, which is nothing: sizes are kept within 2^±200.
+//!
+//! So, with A and B the sizes of the edges that n is formed from,
+//! ```text
+//! |error| ≤ 2⁻⁷² ab / |n|  +  |cot| (2⁻⁷² AB / |n| + 2⁻⁷³)
+//! ```
+//! before the one rounding to `f64`. Where `|n| ≥ 2⁻¹⁶ AB` and `|d| ≥ 2⁻¹⁶ ab` each of the two large terms is at most
+//! `2⁻⁵⁶ |cot| = u/8`: the cotangent is off by half a unit in the last place and a quarter of u, and that is the test.
+//! n is formed at the corner opposite the longest edge, where it is largest against AB: needles pass as well as any triangle.
+//!
+//! # Cost
+//! Some 340 additions and multiplications, four divisions, one root, no branch but the test.
+
+use super::super::twofold::{Twofold, power_of_two, two_difference};
+
+/// Edges of these sizes are taken as they are; others are brought to the size one first.
+const USUAL: std::ops::Range<f64> = power_of_two(-200)..power_of_two(200);
+
+/// The relative size of dot and cross product from which on their error is at most u/8: `2⁻¹⁶`.
+const ENOUGH: f64 = power_of_two(-16);
+
+/// The error of dot and cross product relative to the sizes of the edges: `2⁻⁷²`.
+const ERROR: f64 = power_of_two(-72);
+
+/// The exponent of a positive number, as a power of two. Zero for zero and below the normal numbers.
+#[inline]
+fn binade(x: f64) -> f64 {
+    f64::from_bits(x.to_bits() & f64::INFINITY.to_bits())
+}
+
+#[inline]
+fn size(v: &[f64; 3]) -> f64 {
+    v[0].abs().max(v[1].abs()).max(v[2].abs())
+}
+
+/// A vector cut at a bit common to its components.
+#[derive(Clone, Copy)]
+struct Cut {
+    head: [f64; 3],
+    tail: [f64; 3],
+}
+
+/// Cuts a vector `high + low` whose `high` has the given size.
+#[inline]
+fn cut(high: [f64; 3], low: [f64; 3], size: f64) -> Cut {
+    // Added and taken away again, it leaves multiples of its last bit: of 2^(e−24).
+    let anchor = binade(size) * (1.5 * power_of_two(28));
+    let head = high.map(|x| (x + anchor) - anchor);
+    Cut { head, tail: std::array::from_fn(|k| (high[k] - head[k]) + low[k]) }
+}
+
+/// The upper 26 bits of a number.
+#[inline]
+fn upper(x: f64) -> f64 {
+    f64::from_bits(x.to_bits() & !((1 << 27) - 1))
+}
+
+#[inline]
+fn dot(e: &Cut, f: &Cut) -> Twofold {
+    let heads = (e.head[0] * f.head[0] + e.head[1] * f.head[1]) + e.head[2] * f.head[2];
+    let mixed = |k: usize| (e.head[k] * f.tail[k] + e.tail[k] * f.head[k]) + e.tail[k] * f.tail[k];
+    apart(heads, (mixed(0) + mixed(1)) + mixed(2))
+}
+
+/// A component of the cross product.
+#[inline]
+fn cross(e: &Cut, f: &Cut, a: usize, b: usize) -> Twofold {
+    let heads = e.head[a] * f.head[b] - e.head[b] * f.head[a];
+    let mixed = |a: usize, b: usize| (e.head[a] * f.tail[b] + e.tail[a] * f.head[b]) + e.tail[a] * f.tail[b];
+    apart(heads, mixed(a, b) - mixed(b, a))
+}
+
+/// The sum of two numbers and what its rounding lost, if the first is the larger one.
+#[inline]
+fn apart(large: f64, small: f64) -> Twofold {
+    let high = large + small;
+    Twofold { high, low: small - (high - large) }
+}
+
+/// What the cheap way makes of a triangle.
+pub(super) struct Heads {
+    /// The cotangents, unrounded.
+    pub cotangents: [Twofold; 3],
+    /// Twice the area.
+    pub doubled_area: f64,
+    /// By how much each cotangent may be off before it is rounded.
+    dot_is_enough: [bool; 3],
+    area_is_enough: bool,
+    /// The product of the sizes of the two edges at each corner over the length of the cross product.
+    thinness: [f64; 3],
+    /// The same at the corner that the cross product is formed at.
+    area_thinness: f64,
+}
+
+impl Heads {
+    /// Of a triangle.
+    #[inline]
+    pub fn of(corners: &[[f64; 3]; 3]) -> Self {
+        let (high, low) = edges(corners);
+        let sizes = [size(&high[0]), size(&high[1]), size(&high[2])];
+        if sizes.iter().all(|s| USUAL.contains(s)) {
+            Self::of_edges(&high, &low, &sizes)
+        } else {
+            Self::scaled(high, low)
+        }
+    }
+
+    /// The same where a size is unusual, if a power of two makes them all usual.
+    #[cold]
+    fn scaled(high: [[f64; 3]; 3], low: [[f64; 3]; 3]) -> Self {
+        let largest = high.iter().map(size).fold(0.0, f64::max);
+        // A subnormal number counts as the smallest normal one: then the sizes stay unusual, and nothing here is enough.
+        let exponent = (largest.to_bits() >> 52) as i32 - 1023;
+        let halves = [-exponent / 2, -exponent - -exponent / 2].map(power_of_two);
+        let brought = |edges: [[f64; 3]; 3]| edges.map(|edge| edge.map(|x| x * halves[0] * halves[1]));
+        let before = [high, low];
+        let (high, low) = (brought(high), brought(low));
+        // A component that vanishes on the way is no zero, and a dot product of such none either.
+        let kept = |(x, y): (&f64, &f64)| *x == 0.0 || y.abs() >= f64::MIN_POSITIVE;
+        let lossless = before.iter().flatten().flatten().zip([high, low].iter().flatten().flatten()).all(kept);
+        let sizes = [size(&high[0]), size(&high[1]), size(&high[2])];
+        let mut found = Self::of_edges(&high, &low, &sizes);
+        found.area_is_enough &= lossless && sizes.iter().all(|s| USUAL.contains(s));
+        halves.iter().for_each(|half| found.doubled_area = found.doubled_area / half / half);
+        found
+    }
+
+    #[inline]
+    fn of_edges(high: &[[f64; 3]; 3], low: &[[f64; 3]; 3], sizes: &[f64; 3]) -> Self {
+        let e: [Cut; 3] = std::array::from_fn(|k| cut(high[k], low[k], sizes[k]));
+        let products = [sizes[1] * sizes[2], sizes[2] * sizes[0], sizes[0] * sizes[1]];
+        let longest = if sizes[0] >= sizes[1] && sizes[0] >= sizes[2] {
+            0
+        } else if sizes[1] >= sizes[2] {
+            1
+        } else {
+            2
+        };
+        let (f, g) = (&e[(longest + 1) % 3], &e[(longest + 2) % 3]);
+        let n = [cross(f, g, 1, 2), cross(f, g, 2, 0), cross(f, g, 0, 1)];
+        let n_high = n.map(|c| c.high);
+        let n_cut = cut(n_high, n.map(|c| c.low), size(&n_high));
+        let heads = (n_cut.head[0] * n_cut.head[0] + n_cut.head[1] * n_cut.head[1]) + n_cut.head[2] * n_cut.head[2];
+        let mixed = |k: usize| n_cut.tail[k] * (2.0 * n_cut.head[k] + n_cut.tail[k]);
+        let square = apart(heads, (mixed(0) + mixed(1)) + mixed(2));
+
+        let root = square.high.sqrt();
+        let root_upper = upper(root);
+        let root_lower = root - root_upper;
+        let residual = ((square.high - root_upper * root_upper) - root_lower * (root + root_upper)) + square.low;
+        // The true root is root · (1 + excess).
+        let excess = 0.5 * residual / square.high;
+        let inverse = 1.0 / root;
+
+        // Edge k is opposite corner k, and the three go round: the dot product at corner k is −e_{k+1} · e_{k+2}.
+        let dots = [dot(&e[1], &e[2]), dot(&e[2], &e[0]), dot(&e[0], &e[1])];
+        let quotient = |k: usize| {
+            let d = Twofold { high: 0.0 - dots[k].high, low: 0.0 - dots[k].low };
+            let near = d.high / root;
+            let near_upper = upper(near);
+            let rest = (d.high - near_upper * root_upper) - (near_upper * root_lower + (near - near_upper) * root);
+            apart(near, (rest + d.low) * inverse - near * excess)
+        };
+        let exact = |k: usize| dots[k].high.abs() < ENOUGH * products[k] && is_exact(&e[(k + 1) % 3], &e[(k + 2) % 3]);
+        Heads {
+            cotangents: [quotient(0), quotient(1), quotient(2)],
+            doubled_area: root + root * excess,
+            dot_is_enough: [0, 1, 2].map(|k| dots[k].high.abs() >= ENOUGH * products[k] || exact(k)),
+            area_is_enough: root >= ENOUGH * products[longest],
+            thinness: products.map(|p| p * inverse),
+            area_thinness: products[longest] * inverse,
+        }
+    }
+
+    /// Whether twice the area is off by little more than one rounding.
+    #[inline]
+    pub fn area_suffices(&self) -> bool {
+        self.area_is_enough
+    }
+
+    /// Whether a cotangent is off by no more than half a unit in the last place and u/4.
+    #[inline]
+    pub fn suffices(&self, corner: usize) -> bool {
+        self.area_is_enough && self.dot_is_enough[corner]
+    }
+
+    /// By how much a cotangent may be off before it is rounded, if the area suffices.
+    pub fn error(&self, corner: usize) -> f64 {
+        let relative = ERROR * self.area_thinness + 0.5 * ERROR;
+        ERROR * self.thinness[corner] + self.cotangents[corner].high.abs() * relative
+    }
+}
+
+/// Whether a dot product is a sum without any rounding: no tails, or no term at all.
+fn is_exact(e: &Cut, f: &Cut) -> bool {
+    let vanishes = |v: &Cut, k: usize| v.head[k] == 0.0 && v.tail[k] == 0.0;
+    let no_tail = |v: &Cut| v.tail.iter().all(|t| *t == 0.0);
+    (0..3).all(|k| vanishes(e, k) || vanishes(f, k)) || (no_tail(e) && no_tail(f))
+}
+
+/// The edges opposite the corners, going round: rounded, and what the rounding lost.
+#[inline]
+fn edges(corners: &[[f64; 3]; 3]) -> ([[f64; 3]; 3], [[f64; 3]; 3]) {
+    let (mut high, mut low) = ([[0.0; 3]; 3], [[0.0; 3]; 3]);
+    for k in 0..3 {
+        for axis in 0..3 {
+            (high[k][axis], low[k][axis]) = two_difference(corners[(k + 2) % 3][axis], corners[(k + 1) % 3][axis]);
+        }
+    }
+    (high, low)
+}
