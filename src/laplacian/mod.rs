@@ -3,8 +3,9 @@
 //! To add one: write the file and name it below, in the `catalogue`.
 //!
 //! Besides the constructions: [`shape`] holds the metric of a triangle, [`stiffness`] puts edge weights together to a
-//! matrix, [`mass`] the mass matrices that all constructions on triangles share.
+//! matrix, [`mass`] the mass matrices that all constructions on triangles share, [`exact`] knows which operators are rational.
 
+pub mod exact;
 pub mod mass;
 mod on_triangles;
 pub mod shape;
@@ -20,7 +21,7 @@ catalogue! {
     intrinsic_delaunay,
     mean_value,
     pub wachspress,
-    three_point,
+    pub three_point,
 }
 
 use std::collections::BTreeMap;
