@@ -52,6 +52,7 @@ fn claims() -> Vec<Claim> {
         include_str!("../suites/claims/graphs.toml"),
         include_str!("../suites/claims/discrete.toml"),
         include_str!("../suites/claims/taxonomy.toml"),
+        include_str!("../suites/claims/coordinates.toml"),
     ]
     .into_iter()
     .flat_map(|text| toml::from_str::<Claims>(text).unwrap().claim)

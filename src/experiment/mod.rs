@@ -20,6 +20,8 @@ catalogue! {
     heat_flow,
     linear_precision_of_graphs,
     cotangent_sign,
+    dual_faces,
+    family_positivity,
 }
 
 use crate::property::{Evidence, Level};

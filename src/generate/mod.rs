@@ -25,6 +25,7 @@ catalogue! {
     hypercube,
     icosphere,
     lantern,
+    pub listed,
     path,
     perturb,
     perturbed_grid,

@@ -50,25 +50,39 @@ pub const DECIDED: &[&str] = &[
     "MAX-global",
 ];
 
-/// A planar mesh with an exact stiffness matrix.
-pub struct Case<'a> {
+/// A planar mesh with exact coordinates.
+pub struct Plane<'a> {
     surface: &'a Surface,
-    stiffness: &'a Csr<Rational>,
     positions: Vec<[Rational; 2]>,
     boundary: Vec<bool>,
+    components: Vec<usize>,
 }
 
-impl<'a> Case<'a> {
-    /// A case, or none where the mesh is not one of those that are decided here.
-    pub fn new(domain: &'a Domain, stiffness: &'a Csr<Rational>) -> Option<Self> {
+impl<'a> Plane<'a> {
+    /// A mesh on which properties are decided here; none where it is not one of those.
+    pub fn new(domain: &'a Domain) -> Option<Self> {
         let surface = domain.as_surface()?;
         let positions = surface.planar_positions::<Rational>()?;
         let facts = domain.facts();
         let of_surface = facts.surface?;
         let regular = of_surface.manifold && of_surface.degenerate_faces == 0 && facts.isolated_vertices == 0;
-        let fits = surface.is_triangulated() && stiffness.rows() == positions.len() && !positions.is_empty();
         let boundary = surface.topology().boundary_vertices().to_vec();
-        (regular && fits).then_some(Case { surface, stiffness, positions, boundary })
+        let fits = regular && surface.is_triangulated() && !positions.is_empty();
+        fits.then(|| Plane { surface, positions, boundary, components: domain.components() })
+    }
+}
+
+/// A planar mesh with an exact stiffness matrix.
+pub struct Case<'a> {
+    plane: &'a Plane<'a>,
+    stiffness: &'a Csr<Rational>,
+}
+
+impl<'a> Case<'a> {
+    /// A case; none where the matrix has another size than the mesh.
+    pub fn new(plane: &'a Plane<'a>, stiffness: &'a Csr<Rational>) -> Option<Self> {
+        let square = stiffness.rows() == plane.positions.len() && stiffness.columns() == stiffness.rows();
+        square.then_some(Case { plane, stiffness })
     }
 
     /// Decides a property; `None` for those that are not decided here.
@@ -92,16 +106,16 @@ impl<'a> Case<'a> {
     }
 
     fn size(&self) -> usize {
-        self.positions.len()
+        self.plane.positions.len()
     }
 
     fn interior(&self) -> Vec<usize> {
-        (0..self.size()).filter(|&i| !self.boundary[i]).collect()
+        (0..self.size()).filter(|&i| !self.plane.boundary[i]).collect()
     }
 
     /// The first vertex, inside or on the boundary, of which something is wrong.
     fn over(&self, boundary: bool, wrong: impl Fn(usize) -> bool) -> Decision {
-        let places: Vec<usize> = (0..self.size()).filter(|&i| self.boundary[i] == boundary).collect();
+        let places: Vec<usize> = (0..self.size()).filter(|&i| self.plane.boundary[i] == boundary).collect();
         if places.is_empty() { Decision::Silent } else { first(places.into_iter().find(|&i| wrong(i)).map(|i| vec![i])) }
     }
 
@@ -120,7 +134,7 @@ impl<'a> Case<'a> {
     }
 
     fn weights(&self, boundary: bool, good: fn(Ordering) -> bool) -> Decision {
-        let topology = self.surface.topology();
+        let topology = self.plane.surface.topology();
         let edges = topology.edges().iter().enumerate().filter(|(e, _)| topology.is_boundary_edge(*e) == boundary);
         let edges: Vec<[usize; 2]> = edges.map(|(_, ends)| *ends).collect();
         if edges.is_empty() {
@@ -133,7 +147,7 @@ impl<'a> Case<'a> {
     /// `Σ_j L_ij (x_j − x_i)`.
     fn moment(&self, i: usize, axis: usize) -> Rational {
         let term = |(j, v): (usize, &Rational)| {
-            v.clone() * (self.positions[j][axis].clone() - self.positions[i][axis].clone())
+            v.clone() * (self.plane.positions[j][axis].clone() - self.plane.positions[i][axis].clone())
         };
         crate::scalar::sum(self.stiffness.row(i).map(term))
     }
@@ -141,17 +155,17 @@ impl<'a> Case<'a> {
     /// Twice the signed area.
     fn doubled_area(&self) -> Rational {
         let of = |f: &Vec<usize>| {
-            let [a, b, c] = [0, 1, 2].map(|k| &self.positions[f[k]]);
+            let [a, b, c] = [0, 1, 2].map(|k| &self.plane.positions[f[k]]);
             geometry::doubled_area(a, b, c)
         };
-        crate::scalar::sum(self.surface.faces().iter().map(of))
+        crate::scalar::sum(self.plane.surface.faces().iter().map(of))
     }
 
     /// `½ Σ_{i≠j} ω_ij (x_i − x_j)(x_i − x_j)ᵀ = area·I₂`.
     fn energy(&self) -> Decision {
         let area = self.doubled_area().magnitude() * Rational::half();
         let difference = |i: usize, j: usize, axis: usize| {
-            self.positions[i][axis].clone() - self.positions[j][axis].clone()
+            self.plane.positions[i][axis].clone() - self.plane.positions[j][axis].clone()
         };
         let wrong = [[0, 0], [0, 1], [1, 1]].into_iter().find(|&[a, b]| {
             let off = self.stiffness.entries().filter(|(i, j, _)| i != j);
@@ -166,16 +180,16 @@ impl<'a> Case<'a> {
     /// `(LX)_i ≠ ½ J (x_q − x_p)`, p and q before and after i along the boundary, J a quarter turn clockwise.
     fn flux_is_wrong(&self, i: usize) -> bool {
         let turn = if self.doubled_area().cmp_zero() == Ordering::Less { -Rational::half() } else { Rational::half() };
-        let topology = self.surface.topology();
+        let topology = self.plane.surface.topology();
         let on_boundary = |v: usize| topology.edge_between(i, v).is_some_and(|e| topology.is_boundary_edge(e));
         let (mut before, mut after) = (i, i);
         for &(face, corner) in topology.star(i) {
-            let corners = &self.surface.faces()[face];
+            let corners = &self.plane.surface.faces()[face];
             let (next, previous) = (corners[(corner + 1) % 3], corners[(corner + 2) % 3]);
             after = if on_boundary(next) { next } else { after };
             before = if on_boundary(previous) { previous } else { before };
         }
-        let along = |axis: usize| self.positions[after][axis].clone() - self.positions[before][axis].clone();
+        let along = |axis: usize| self.plane.positions[after][axis].clone() - self.plane.positions[before][axis].clone();
         let expected = [turn.clone() * along(1), -(turn * along(0))];
         (0..2).any(|axis| nonzero(&(self.moment(i, axis) - expected[axis].clone())))
     }
@@ -202,7 +216,7 @@ impl<'a> Case<'a> {
     }
 
     fn kernel(&self) -> Decision {
-        let components = Domain::Surface(self.surface.clone()).components();
+        let components = &self.plane.components;
         let count = components.iter().max().map_or(0, |last| last + 1);
         // An operator that joins no two components annihilates the locally constant functions where its row sums vanish.
         if let Some(i) = (0..self.size()).find(|&i| {
@@ -216,7 +230,7 @@ impl<'a> Case<'a> {
 
     fn maximum_principle(&self) -> Decision {
         let inside = self.interior();
-        let set: Vec<usize> = (0..self.size()).filter(|&i| self.boundary[i]).collect();
+        let set: Vec<usize> = (0..self.size()).filter(|&i| self.plane.boundary[i]).collect();
         if inside.is_empty() || set.is_empty() {
             return Decision::Silent;
         }
@@ -265,7 +279,9 @@ mod tests {
     fn decide(entries: &[(usize, usize, f64)], property: &str) -> Decision {
         let exact: Vec<_> = entries.iter().map(|&(i, j, v)| (i, j, Rational::exactly(v).unwrap())).collect();
         let matrix = Csr::from_triplets(5, 5, &exact);
-        Case::new(&star(), &matrix).unwrap().decide(property).unwrap()
+        let star = star();
+        let plane = Plane::new(&star).unwrap();
+        Case::new(&plane, &matrix).unwrap().decide(property).unwrap()
     }
 
     #[test]
@@ -306,11 +322,14 @@ mod tests {
     #[test]
     fn what_is_not_decided_here_says_so() {
         let exact = Csr::<Rational>::diagonal(&vec![Rational::zero(); 5]);
-        assert_eq!(Case::new(&star(), &exact).unwrap().decide("MASS"), None);
-        assert!(Case::new(&star(), &Csr::<Rational>::diagonal(&[])).is_none());
+        let star = star();
+        let plane = Plane::new(&star).unwrap();
+        assert_eq!(Case::new(&plane, &exact).unwrap().decide("MASS"), None);
+        assert!(Case::new(&plane, &Csr::<Rational>::diagonal(&[])).is_none());
         let triangle = Domain::from(Surface::planar(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]], &[[0, 1, 2]]).unwrap());
         let three = Csr::<Rational>::diagonal(&vec![Rational::zero(); 3]);
-        let case = Case::new(&triangle, &three).unwrap();
+        let plane = Plane::new(&triangle).unwrap();
+        let case = Case::new(&plane, &three).unwrap();
         for property in ["POS", "POS0", "LIN", "MVP", "MAX-local", "MAX-global"] {
             assert_eq!(case.decide(property), Some(Decision::Silent), "{property}");
         }

@@ -2,6 +2,7 @@
 //! on light and dark screens, narrow ones, and on paper. A file for each section.
 
 mod anchor;
+mod atlas;
 mod claims;
 mod evidence;
 mod exhibits;
@@ -29,9 +30,10 @@ struct Page<'a> {
 const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
 
 /// The sections, by anchor and title, as the navigation lists them.
-const SECTIONS: [(&str, &str); 8] = [
+const SECTIONS: [(&str, &str); 9] = [
     ("taxonomy", "Taxonomy"),
     ("claims", "Claims"),
+    ("atlas", "Atlas"),
     ("exhibits", "Exhibits"),
     ("evidence", "Evidence"),
     ("plots", "Plots"),
@@ -72,6 +74,7 @@ pub fn html(record: &Record, options: &Options, files: &[File]) -> Result<String
                     (matrix::section(&page))
                     (tables::unexpected(&page))
                     (claims::section(&page))
+                    (atlas::section(&page))
                     (exhibits::section(&page))
                     (evidence::section(&page))
                     (plots)
