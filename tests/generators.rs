@@ -34,6 +34,7 @@ fn random_settings(id: &str) -> Option<BTreeMap<String, String>> {
     Some(match id {
         "grid" | "square" | "torus" | "flat-torus" => given(&[("diagonals", "random")]),
         "cycle" | "complete" | "hypercube" => given(&[("boundary", "5")]),
+        "tet-grid" => given(&[("displacement", "0.1")]),
         "perturbed-grid" | "random-delaunay" | "random-delaunay-disk" | "convex-polygon" | "gnp" | "planar-graph" => {
             given(&[])
         }

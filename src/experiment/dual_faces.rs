@@ -244,7 +244,8 @@ mod tests {
     fn any_weights_with_a_vanishing_moment_are_a_dual_face_without_being_of_the_family() {
         let star = star();
         let (a, b) = (star.weights(&star.numbers(0)), star.weights(&star.numbers(3)));
-        let mixed: Vec<Rational> = a.iter().zip(&b).map(|(x, y)| (x.clone() * Rational::from(7) - y.clone()).reduced()).collect();
+        let mixed: Vec<Rational> =
+            a.iter().zip(&b).map(|(x, y)| (x.clone() * Rational::from(7) - y.clone()).reduced()).collect();
         assert!(no_dual_face(&star, &mixed).is_none());
     }
 }

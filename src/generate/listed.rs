@@ -8,7 +8,9 @@ use crate::parameter::{Parameter, Range, Settings};
 pub static ENTRY: Generator = Generator {
     id: "listed",
     name: "mesh written out: points and faces, as a smallest counterexample is",
-    guarantees: &["the vertices and faces that are listed, in their order; a point of two coordinates lies in the plane z = 0"],
+    guarantees: &[
+        "the vertices and faces that are listed, in their order; a point of two coordinates lies in the plane z = 0",
+    ],
     sources: &[],
     parameters: &[
         Parameter {
@@ -89,10 +91,7 @@ mod tests {
             let settings = given(&[("points", points), ("faces", faces)]);
             ENTRY.run(None, &settings, 0).unwrap_err().to_string()
         };
-        assert_eq!(
-            refused("0 0;1 0;0 1", "0 1 3"),
-            "face 0 names vertex 3, but the domain has 3 vertices (0 to 2)"
-        );
+        assert_eq!(refused("0 0;1 0;0 1", "0 1 3"), "face 0 names vertex 3, but the domain has 3 vertices (0 to 2)");
         let advice = "it must be points of two or three finite coordinates, as in '0 0;1 0;0 1'";
         assert!(refused("0 0;1;0 1", "0 1 2").ends_with(advice));
         assert!(refused("0 0;inf 0;0 1", "0 1 2").ends_with(advice));

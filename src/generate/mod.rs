@@ -42,6 +42,7 @@ catalogue! {
     square,
     star,
     subdivide,
+    tet_grid,
     torus,
     translate,
     worst_angle,

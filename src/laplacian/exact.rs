@@ -64,10 +64,7 @@ fn one() -> Rational {
 }
 
 /// The weight of an edge from its squared length.
-fn by_length(
-    triangles: &Triangles<Rational>,
-    weight: impl Fn(&Rational) -> Option<Rational>,
-) -> Option<Csr<Rational>> {
+fn by_length(triangles: &Triangles<Rational>, weight: impl Fn(&Rational) -> Option<Rational>) -> Option<Csr<Rational>> {
     let surface = triangles.surface();
     let of_edge = |(e, &ends): (usize, &[usize; 2])| {
         let w = triangles.beside(e).next().map(|flank| weight(&flank.shape.squared_lengths[flank.corners[2]]))??;
@@ -154,7 +151,10 @@ mod tests {
             let entry = find(id).unwrap();
             assert_eq!(twin(entry, &entry.check(&given(settings)).unwrap(), &mesh()), None, "{id} {settings}");
         }
-        let tent = Surface::triangles(vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 1.0], [1.0, 1.0, 0.5]], &[[0, 1, 2], [1, 3, 2]]);
+        let tent = Surface::triangles(
+            vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 1.0], [1.0, 1.0, 0.5]],
+            &[[0, 1, 2], [1, 3, 2]],
+        );
         let tent = tent.unwrap();
         for entry in ALL {
             let settings = entry.check(&BTreeMap::new()).unwrap();

@@ -22,6 +22,7 @@ catalogue! {
     mean_value,
     pub wachspress,
     pub three_point,
+    pub tet_cotan,
 }
 
 use std::collections::BTreeMap;
@@ -268,6 +269,21 @@ pub enum BuildError {
         face: usize,
         /// Its corners.
         corners: [usize; 3],
+        /// How many there are.
+        count: usize,
+    },
+    /// A tetrahedron of zero volume.
+    #[error(
+        "tetrahedron {tetrahedron} ({}, {}, {}, {}) has zero volume, where '{laplacian}' is not defined ({count} such \
+         tetrahedra in all); remove them", corners[0], corners[1], corners[2], corners[3]
+    )]
+    Flat {
+        /// The entry.
+        laplacian: &'static str,
+        /// The first flat tetrahedron.
+        tetrahedron: usize,
+        /// Its corners.
+        corners: [usize; 4],
         /// How many there are.
         count: usize,
     },

@@ -116,7 +116,11 @@ impl<'a> Case<'a> {
     /// The first vertex, inside or on the boundary, of which something is wrong.
     fn over(&self, boundary: bool, wrong: impl Fn(usize) -> bool) -> Decision {
         let places: Vec<usize> = (0..self.size()).filter(|&i| self.plane.boundary[i] == boundary).collect();
-        if places.is_empty() { Decision::Silent } else { first(places.into_iter().find(|&i| wrong(i)).map(|i| vec![i])) }
+        if places.is_empty() {
+            Decision::Silent
+        } else {
+            first(places.into_iter().find(|&i| wrong(i)).map(|i| vec![i]))
+        }
     }
 
     fn asymmetry(&self) -> Option<Vec<usize>> {
@@ -189,7 +193,8 @@ impl<'a> Case<'a> {
             after = if on_boundary(next) { next } else { after };
             before = if on_boundary(previous) { previous } else { before };
         }
-        let along = |axis: usize| self.plane.positions[after][axis].clone() - self.plane.positions[before][axis].clone();
+        let along =
+            |axis: usize| self.plane.positions[after][axis].clone() - self.plane.positions[before][axis].clone();
         let expected = [turn.clone() * along(1), -(turn * along(0))];
         (0..2).any(|axis| nonzero(&(self.moment(i, axis) - expected[axis].clone())))
     }
@@ -220,7 +225,8 @@ impl<'a> Case<'a> {
         let count = components.iter().max().map_or(0, |last| last + 1);
         // An operator that joins no two components annihilates the locally constant functions where its row sums vanish.
         if let Some(i) = (0..self.size()).find(|&i| {
-            nonzero(&self.row_sum(i)) || self.stiffness.row(i).any(|(j, v)| components[j] != components[i] && nonzero(v))
+            nonzero(&self.row_sum(i))
+                || self.stiffness.row(i).any(|(j, v)| components[j] != components[i] && nonzero(v))
         }) {
             return Decision::Fails(vec![i]);
         }
@@ -313,7 +319,10 @@ mod tests {
         assert_eq!([decide(&zero, "POS"), decide(&zero, "POS0")], [Decision::Fails(vec![0, 1]), Decision::Holds]);
         assert_eq!([decide(&zero, "KER"), decide(&zero, "MAX-local")], [Decision::Fails(vec![]), Decision::Holds]);
         let negative = spoilt(&[(0, 1, 0.75), (1, 0, 0.75), (0, 0, -0.75), (1, 1, -0.75)]);
-        assert_eq!([decide(&negative, "POS0"), decide(&negative, "MVP")], [Decision::Fails(vec![0, 1]), Decision::Fails(vec![0])]);
+        assert_eq!(
+            [decide(&negative, "POS0"), decide(&negative, "MVP")],
+            [Decision::Fails(vec![0, 1]), Decision::Fails(vec![0])]
+        );
         assert_eq!(decide(&negative, "MAX-local"), Decision::Fails(vec![0]));
         assert_eq!(decide(&negative, "MAX-global"), Decision::Fails(vec![0, 1]));
         assert_eq!(decide(&spoilt(&[(0, 0, -5.0)]), "MAX-global"), Decision::Fails(vec![]), "singular");

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::{
-    AtlasLine, BrokenLine, Cell, ClaimLine, Digest, DomainLine, Exhibit, Footer, Header, Index, Line, OperatorLine, Recheck,
-    Timing, WriteError, Writer,
+    AtlasLine, BrokenLine, Cell, ClaimLine, Digest, DomainLine, Exhibit, Footer, Header, Index, Line, OperatorLine,
+    Recheck, Timing, WriteError, Writer,
 };
 
 /// Everything that a run wrote, each kind of line in the order in which it came.

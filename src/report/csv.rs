@@ -163,8 +163,22 @@ fn domain(d: &DomainLine) -> [String; 22] {
 /// `atlas.csv`: a row for each operator and property that a small world was searched for.
 pub fn atlas(record: &Record) -> Table {
     let head = [
-        "laplacian", "property", "world", "size", "searched", "decided", "open", "silent", "refused", "level", "vertices",
-        "faces", "width", "height", "recheck", "recipe",
+        "laplacian",
+        "property",
+        "world",
+        "size",
+        "searched",
+        "decided",
+        "open",
+        "silent",
+        "refused",
+        "level",
+        "vertices",
+        "faces",
+        "width",
+        "height",
+        "recheck",
+        "recipe",
     ];
     table(
         head,

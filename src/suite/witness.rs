@@ -127,6 +127,11 @@ fn ladder() -> Vec<Recipe> {
         texts.push(format!("perturbed-grid:nx={n},ny={n},displacement=0.4,seed={n}"));
         texts.push(format!("slivers:columns={n},aspect=1e4"));
     }
+    for n in 1..=3 {
+        for seed in 0..SEEDS {
+            texts.push(format!("tet-grid:nx=2,ny={n},nz=2,displacement=0.16,seed={seed}"));
+        }
+    }
     for levels in 1..=2 {
         texts.push(format!("icosphere:levels={levels}"));
         texts.push(format!("icosphere:levels={levels} | flip:count=30"));

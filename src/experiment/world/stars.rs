@@ -88,10 +88,8 @@ impl Star {
         let square = tangent.clone() * tangent.clone();
         let scale = power(root, q) / (Rational::ONE + square.clone());
         let two = Rational::from(2);
-        self.spokes.push([
-            ((Rational::ONE - square) * scale.clone()).reduced(),
-            (two * tangent.clone() * scale).reduced(),
-        ]);
+        self.spokes
+            .push([((Rational::ONE - square) * scale.clone()).reduced(), (two * tangent.clone() * scale).reduced()]);
         self.roots.push(root.clone());
     }
 

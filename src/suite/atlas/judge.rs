@@ -62,7 +62,9 @@ fn answers_of(
             return Answer::Decided(status(&decision), Level::Exact);
         }
         let operator = rounded.get_or_insert_with(|| choice.build(domain).ok());
-        let Some(trial) = operator.as_ref().and_then(|o| Trial::new(domain, o, seed).ok()) else { return Answer::Refused };
+        let Some(trial) = operator.as_ref().and_then(|o| Trial::new(domain, o, seed).ok()) else {
+            return Answer::Refused;
+        };
         let construction = |domain: &Domain| choice.build(domain).map_err(|refusal| refusal.to_string());
         let verdict = property.decide(&trial, Some(&construction));
         Answer::Decided(verdict.status(), verdict.level)

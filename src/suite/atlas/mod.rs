@@ -48,7 +48,11 @@ pub struct World {
 impl std::fmt::Display for World {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let side = self.side + 1;
-        write!(f, "every triangulation of every set of 3 to {} points in a box of {side} × {side} lattice points", self.vertices)
+        write!(
+            f,
+            "every triangulation of every set of 3 to {} points in a box of {side} × {side} lattice points",
+            self.vertices
+        )
     }
 }
 

@@ -78,7 +78,8 @@ impl Atlas {
     fn pairs(&self) -> Vec<(&Choice, &'static Property)> {
         let all = self.choices.iter().flat_map(|c| self.properties.iter().map(move |p| (c, *p)));
         let of_mass = move |p: &&Property| OF_MASS.contains(&p.id);
-        let masses = self.masses.iter().flat_map(|c| self.properties.iter().copied().filter(of_mass).map(move |p| (c, p)));
+        let masses =
+            self.masses.iter().flat_map(|c| self.properties.iter().copied().filter(of_mass).map(move |p| (c, p)));
         all.chain(masses).collect()
     }
 }
