@@ -73,7 +73,7 @@ fn over_every_small_triangulation_both_ways_come_to_the_same() {
     for (id, count) in &counts {
         assert_eq!(count.open, 0, "{id}: on lattice points rounding leaves nothing open");
         assert!(count.holds > 100, "{id}");
-        let never = ["NULL"].contains(id);
+        let never = ["NULL", "KER"].contains(id);
         assert!(never || count.fails > 100, "{id} fails {} times", count.fails);
     }
 }
@@ -84,7 +84,9 @@ fn on_random_meshes_of_up_to_thirty_vertices_both_ways_come_to_the_same() {
     for (n, seed) in [(6, 1), (8, 2), (10, 3), (13, 4), (17, 5), (22, 6), (30, 7)] {
         let recipe = format!("random-delaunay:n={n},seed={seed} | flip:count={},seed={seed}", n / 2);
         let domain = recipe.parse::<Recipe>().unwrap().build(Path::new(".")).unwrap();
-        compare(&domain, &choices, &mut counts);
+        // The numbers grow with the exponents: the larger meshes are for the first two operators.
+        let some = if n > 15 { &choices[..2] } else { &choices[..] };
+        compare(&domain, some, &mut counts);
     }
     let (open, all) = counts.values().fold((0, 0), |(o, a), c| (o + c.open, a + c.open + c.holds + c.fails + c.silent));
     assert!(open * 50 <= all, "{open} of {all} were left open");

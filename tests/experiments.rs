@@ -110,7 +110,7 @@ fn the_claims_are_complete_and_well_formed() {
         ["NULL", "LOC", "SYM", "PSD", "KER", "POS", "POS0", "LIN", "MVP", "MAX-local", "MAX-global", "MAX-heat"];
     let claims = claims();
     let ids: Vec<&str> = claims.iter().map(|c| c.id.as_str()).collect();
-    let expected = "c29 c30 c31 c32 c33 c34 c35 c36 c37 c38 c67 c68 c70 c71 c72 c73 c77 c81 c82 t01";
+    let expected = "c29 c30 c31 c32 c33 c34 c35 c36 c37 c38 c67 c68 c70 c71 c72 c73 c77 c81 c82 t01 c89 c90 c91 c92";
     assert_eq!(ids, expected.split(' ').collect::<Vec<_>>());
     for claim in &claims {
         assert!(!claim.statement.is_empty() && !claim.source.is_empty() && !claim.section.is_empty());

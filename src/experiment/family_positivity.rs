@@ -119,7 +119,10 @@ fn lattice_case(t: &Triangulation, i: usize, star: &Star, ring: &[usize], p: i32
     let matrix = Dense::from_csr(&three_point::stiffness_in_plane::<Rational>(&t.surface(), p)?);
     let text = format!("p = {p}: ω_{i}{j} = {} on {}", -matrix.at(i, j).clone(), t.describe());
     let statement = Statement::Weight { i, j, zero: false, opposite: Vec::new() };
-    Some(Case::shown(text, on_triangulation(statement, t, &matrix, &[i])))
+    let mut witness = on_triangulation(statement, t, &matrix, &[i]);
+    // The row shows the sign. A mesh beside a weight is there for its cotangents, and this weight has others.
+    witness.excerpt.faces.clear();
+    Some(Case::shown(text, witness))
 }
 
 /// The exponents m/q in lowest terms, |m/q| ≤ 4, but 0 and 1.

@@ -49,7 +49,8 @@ const SECTIONS: [(&str, &str); 9] = [
 /// What a chart refuses.
 pub fn html(record: &Record, options: &Options, files: &[File]) -> Result<String, RenderError> {
     let index = record.index();
-    let anchors = Anchors::of(&index, record.claims.iter().map(|c| c.id.as_str()));
+    let in_atlas = record.atlas.iter().flat_map(|line| [line.laplacian.as_str(), line.property.as_str()]);
+    let anchors = Anchors::of(&index, in_atlas, record.claims.iter().map(|c| c.id.as_str()));
     let page = Page { record, index, options, anchors };
     let plots = plots(record)?;
     let body = html! {

@@ -192,9 +192,9 @@ mod tests {
 
     #[test]
     fn the_smallest_negative_cotangent_weights_are_those_that_a_hand_finds() {
-        // A triangle whose long side has an obtuse angle opposite: three points, in the smallest box that has one.
+        // Half of the unit square, the smallest triangle of all: the angle opposite its long side is right, the weight zero.
         let boundary = one("cotan", "POS-boundary", FIVE).found.unwrap();
-        assert_eq!(boundary.cell.recipe, "listed:faces=0 2 1,points=0 0;1 0;0 1");
+        assert_eq!(boundary.cell.recipe, "listed:faces=0 2 1,points=0 0;0 1;1 0");
         // Two right angles opposite the diagonal of the unit square: the weight is zero, and POS is strict.
         let strict = one("cotan", "POS", FIVE);
         assert_eq!(strict.found.as_ref().unwrap().extent, [1, 1]);
