@@ -169,6 +169,8 @@ Claims
   c33  confirmed
   c81  confirmed with an amendment
   c40  refuted as stated   expected: confirmed
+
+Atlas: 4 cells failing, 3 of them by a provably smallest mesh; 1 without a counterexample in the small world
 ";
 
 #[test]
