@@ -55,7 +55,7 @@ impl Recheck {
             count.add(answer, || format!("{} {} on {}", cell.laplacian, cell.property, cell.recipe));
         }
         // The smallest counterexamples are listed in full in their recipes.
-        for found in record.atlas.iter().filter_map(|line| line.found.as_ref()) {
+        for found in record.atlas.iter().filter_map(|line| line.found.as_deref()) {
             let cell = &found.cell;
             let evidence = cell.verdict.evidence();
             let answer = if self.alone { alone(evidence) } else { again(&[cell], common).remove(0).1 };

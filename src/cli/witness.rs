@@ -73,7 +73,7 @@ impl Witness {
             bail!("there is no property '{}'; 'lapjury list properties' names those that there are", self.property);
         };
         let line = witness::smallest(&choice, property);
-        let proved = line.as_ref().and_then(|l| l.found.as_ref());
+        let proved = line.as_ref().and_then(|l| l.found.as_deref());
         let search = if proved.is_none() { Some(witness::search(&choice, property)) } else { None };
         let family = search.as_ref().and_then(|s| s.found.as_ref());
         let shown = match (proved, family) {

@@ -42,9 +42,9 @@ fn points(text: &str) -> Option<Vec<[f64; 3]>> {
     let point = |part: &str| {
         let x: Vec<f64> = part.split_whitespace().map(|w| w.parse().ok()).collect::<Option<_>>()?;
         let whole = x.iter().all(|x| x.is_finite());
-        match x.as_slice() {
-            &[x, y] if whole => Some([x, y, 0.0]),
-            &[x, y, z] if whole => Some([x, y, z]),
+        match *x.as_slice() {
+            [x, y] if whole => Some([x, y, 0.0]),
+            [x, y, z] if whole => Some([x, y, z]),
             _ => None,
         }
     };

@@ -264,7 +264,7 @@ pub struct AtlasLine {
     pub level: Option<Level>,
     /// The first counterexample.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub found: Option<AtlasFound>,
+    pub found: Option<Box<AtlasFound>>,
 }
 
 /// A counterexample that an exhaustive search met first.

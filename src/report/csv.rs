@@ -183,7 +183,7 @@ pub fn atlas(record: &Record) -> Table {
     table(
         head,
         record.atlas.iter().map(|line: &AtlasLine| {
-            let of = |number: fn(&AtlasFound) -> String| line.found.as_ref().map(number).unwrap_or_default();
+            let of = |number: fn(&AtlasFound) -> String| line.found.as_deref().map(number).unwrap_or_default();
             [
                 line.laplacian.clone(),
                 line.property.clone(),

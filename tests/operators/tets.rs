@@ -103,9 +103,9 @@ fn the_rational_twin_is_linear_precise_and_its_energy_is_the_volume() {
         }
         let mass: Csr<Rational> = tet_cotan::mass_of(volume, MassKind::Consistent).unwrap();
         let total = mass.entries().fold(Rational::zero(), |sum, (_, _, v)| sum + v.clone());
-        for a in 0..3 {
-            for b in 0..3 {
-                let energy = images[a].iter().zip(&x[b]).fold(Rational::zero(), |s, (y, x)| s + y.clone() * x.clone());
+        for (a, image) in images.iter().enumerate() {
+            for (b, x) in x.iter().enumerate() {
+                let energy = image.iter().zip(x).fold(Rational::zero(), |s, (y, x)| s + y.clone() * x.clone());
                 let expected = if a == b { total.clone() } else { Rational::zero() };
                 assert_eq!((energy - expected).cmp_zero(), Ordering::Equal, "{recipe} ({a}, {b})");
             }

@@ -453,10 +453,8 @@ pub fn atlas(place: &Place, cell: &Cell) -> Vec<AtlasLine> {
         silent: if found { 29 - open } else { 17 - open },
         refused: 0,
         level: Some(Level::Exact),
-        found: found.then(|| AtlasFound {
-            extent: [2, 1],
-            cell: cell.clone(),
-            exhibit: place.exhibit(laplacian, property),
+        found: found.then(|| {
+            Box::new(AtlasFound { extent: [2, 1], cell: cell.clone(), exhibit: place.exhibit(laplacian, property) })
         }),
     };
     vec![

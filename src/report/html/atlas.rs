@@ -15,7 +15,7 @@ const PICTURES: usize = 700_000;
 pub(super) fn section(page: &Page) -> Markup {
     let lines = &page.record.atlas;
     let failing: Vec<(&AtlasLine, &AtlasFound)> =
-        lines.iter().filter_map(|l| l.found.as_ref().map(|found| (l, found))).collect();
+        lines.iter().filter_map(|l| l.found.as_deref().map(|found| (l, found))).collect();
     let holding: Vec<&AtlasLine> = lines.iter().filter(|l| l.found.is_none()).collect();
     let mut worlds: Vec<&str> = lines.iter().map(|l| l.world.as_str()).collect();
     worlds.dedup();

@@ -8,7 +8,7 @@
 //! before height), then the lexicographic order of the points, then of the faces.
 //!
 //! # Decision
-//! Where operator and property are rational, by [`property::exact`]; elsewhere by the verdict of the property, whose level is
+//! Where operator and property are rational, by [`exact`](crate::property::exact); elsewhere by the verdict of the property, whose level is
 //! kept: the line of a cell says the weakest level at which one of its cases was decided. A cell ends with its first
 //! counterexample; a case before it that stayed open takes away the word "provably".
 //!
@@ -174,7 +174,7 @@ impl Cell<'_> {
         }
         let exhibit = super::run::exhibit(&cell, &domain);
         let extent = |axis: usize| triangulation.points().iter().map(|p| p[axis]).max().unwrap_or(0);
-        self.line.found = Some(AtlasFound { extent: [extent(0), extent(1)], cell, exhibit });
+        self.line.found = Some(Box::new(AtlasFound { extent: [extent(0), extent(1)], cell, exhibit }));
     }
 }
 
