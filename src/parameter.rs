@@ -22,6 +22,8 @@ pub enum Range {
     Number(f64, f64),
     /// A whole number between two bounds, both included.
     Whole(u64, u64),
+    /// A text of a form, described in words.
+    Form(&'static str, fn(&str) -> bool),
 }
 
 impl Range {
@@ -30,6 +32,7 @@ impl Range {
             Range::Choice(words) => words.contains(&value),
             Range::Number(low, high) => value.parse::<f64>().is_ok_and(|x| (*low..=*high).contains(&x)),
             Range::Whole(low, high) => value.parse::<u64>().is_ok_and(|x| (*low..=*high).contains(&x)),
+            Range::Form(_, admits) => admits(value),
         }
     }
 }
@@ -40,6 +43,7 @@ impl std::fmt::Display for Range {
             Range::Choice(words) => write!(f, "one of {}", words.join(", ")),
             Range::Number(low, high) => write!(f, "a number from {low:?} to {high:?}"),
             Range::Whole(low, high) => write!(f, "a whole number from {low} to {high}"),
+            Range::Form(words, _) => f.write_str(words),
         }
     }
 }

@@ -34,6 +34,7 @@ fn random_settings(id: &str) -> Option<BTreeMap<String, String>> {
     Some(match id {
         "grid" | "square" | "torus" | "flat-torus" => given(&[("diagonals", "random")]),
         "cycle" | "complete" | "hypercube" => given(&[("boundary", "5")]),
+        "tet-grid" => given(&[("displacement", "0.1")]),
         "perturbed-grid" | "random-delaunay" | "random-delaunay-disk" | "convex-polygon" | "gnp" | "planar-graph" => {
             given(&[])
         }
@@ -88,6 +89,7 @@ fn values_at_the_ends_of_a_range_are_served_or_refused_with_a_reason_and_beyond_
                 Range::Whole(low, high) => {
                     (vec![low.to_string()], vec![(high + 1).to_string(), "-1".into(), "1.5".into()])
                 }
+                Range::Form(..) => (vec![p.default.into()], vec!["nonsense".into(), ";".into(), "0 1 x".into()]),
             };
             for value in inside {
                 match run(g, &given(&[(p.name, &value)]), 1) {

@@ -169,6 +169,8 @@ Claims
   c33  confirmed
   c81  confirmed with an amendment
   c40  refuted as stated   expected: confirmed
+
+Atlas: 4 cells failing, 3 of them by a provably smallest mesh; 1 without a counterexample in the small world
 ";
 
 #[test]
@@ -317,13 +319,32 @@ fn the_page_is_balanced_its_anchors_resolve_and_it_loads_nothing() {
         let inside: Vec<_> = links.iter().filter_map(|l| l.strip_prefix('#')).collect();
         assert!(inside.iter().all(|l| distinct.contains(&l.to_string())), "{inside:?}");
         for link in &links {
-            let beside = ["taxonomy.csv", "taxonomy.json", "claims.csv", "tests.csv", "domains.csv", "cells.csv"];
+            let beside =
+                ["atlas.csv", "taxonomy.csv", "taxonomy.json", "claims.csv", "tests.csv", "domains.csv", "cells.csv"];
             assert!(link.starts_with('#') || link.starts_with("data:") || beside.contains(&link.as_str()), "{link}");
         }
         assert!(!page.contains("src=") && !page.contains("@import") && !page.contains("url("));
         let addresses = page.matches("http://").count() + page.matches("https://").count();
         assert_eq!(addresses, page.matches("xmlns=\"http://www.w3.org/2000/svg\"").count());
     }
+}
+
+#[test]
+fn the_atlas_has_a_picture_with_the_cases_searched_for_each_counterexample_and_a_row_for_each_other_cell() {
+    let page = page(&sample::tiny());
+    let atlas = &page[page.find("<section id=\"atlas\"").unwrap()..];
+    let atlas = &atlas[..atlas.find("</section>").unwrap()];
+    assert_eq!((atlas.matches("<figure").count(), atlas.matches("<svg").count()), (4, 4));
+    assert_eq!(atlas.matches("provably the smallest, number 34 of 6917 (decided exactly)").count(), 3);
+    assert!(atlas.contains("the first known, number 34 of 6917; 2 smaller ones were left open"), "{atlas}");
+    assert!(atlas.contains("cotan:mass=voronoi fails MASS"));
+    assert_eq!(atlas.matches("<tr").count(), 2, "a head and one cell without a counterexample");
+    assert!(
+        text::text(&sample::tiny(), text::Style::default())
+            .contains("4 cells failing, 3 of them by a provably smallest")
+    );
+    let none = Record::new(sample::header("empty"));
+    assert!(self::page(&none).contains("No small world was searched exhaustively."));
 }
 
 #[test]
@@ -337,6 +358,9 @@ fn a_name_in_a_record_is_never_markup() {
     });
     record.exhibits[0].laplacian = evil.into();
     record.exhibits[0].recipe = evil.into();
+    record.atlas.iter_mut().for_each(|line| line.laplacian = evil.into());
+    record.atlas.iter_mut().for_each(|line| line.property = format!("{evil}{}", line.size));
+    record.atlas.truncate(1);
     record.claims[0].statement = evil.into();
     let page = page(&record);
     assert!(!page.contains("<script>alert") && page.contains("&lt;script&gt;alert(1)"));

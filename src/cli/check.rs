@@ -2,6 +2,7 @@
 
 mod answer;
 mod human;
+mod shrunk;
 
 use std::path::PathBuf;
 
@@ -26,6 +27,7 @@ Examples:
   lapjury check --mesh spot.ply --laplacian cotan --mass mixed
   lapjury check --mesh spot.ply --stiffness L.mtx --mass M.mtx --against cotan
   lapjury check --domain 'random-delaunay:seed=7 | flip:count=5' --laplacian cotan --property POS
+  lapjury check --mesh spot.ply --laplacian cotan --property POS --shrink small/
 
 The sign of a matrix is read off its diagonal and said; a declared one is checked. A matrix fails nothing that was not
 promised: name what it should hold with --promises, and the command ends with 1 where it does not, with 3 where rounding leaves
@@ -61,6 +63,9 @@ pub(super) struct Check {
     /// Compare entry by entry with a built-in operator, within the bound that the mesh's conditioning sets
     #[arg(long, value_name = "ID")]
     against: Option<String>,
+    /// Shrink the surface while the first failing property of the built-in operator fails, and write the small mesh there
+    #[arg(long, value_name = "DIR", requires = "laplacian")]
+    shrink: Option<PathBuf>,
     /// How the result is printed
     #[arg(long, value_enum, default_value_t)]
     format: Format,
@@ -106,6 +111,9 @@ impl Check {
                 verdicts: decided.iter().map(VerdictAnswer::new).collect(),
                 comparison,
             })?,
+        }
+        if let (Some(dir), Some(choice)) = (&self.shrink, &choice) {
+            shrunk::write(common, dir, choice, &source, &domain, &decided)?;
         }
         Ok(if differs || decided.iter().any(Decided::is_unexpected) {
             Exit::Unexpected

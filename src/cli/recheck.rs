@@ -54,6 +54,13 @@ impl Recheck {
         for (cell, answer) in answers {
             count.add(answer, || format!("{} {} on {}", cell.laplacian, cell.property, cell.recipe));
         }
+        // The smallest counterexamples are listed in full in their recipes.
+        for found in record.atlas.iter().filter_map(|line| line.found.as_deref()) {
+            let cell = &found.cell;
+            let evidence = cell.verdict.evidence();
+            let answer = if self.alone { alone(evidence) } else { again(&[cell], common).remove(0).1 };
+            count.add(answer, || format!("{} {} on {}", cell.laplacian, cell.property, cell.recipe));
+        }
         // What an experiment built is gone: its evidence speaks for itself or not at all.
         for claim in &record.claims {
             for (test, evidence) in claim.tests.iter().flat_map(|t| t.evidence.iter().map(move |e| (t, e))) {

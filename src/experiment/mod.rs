@@ -21,6 +21,8 @@ catalogue! {
     linear_precision_of_graphs,
     cotangent_sign,
     cheeger_inequality,
+    dual_faces,
+    family_positivity,
 }
 
 use crate::property::{Evidence, Level};

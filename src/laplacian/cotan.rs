@@ -178,9 +178,16 @@ pub(super) fn sign(triangles: &Triangles, edge: usize) -> Ordering {
 /// The stiffness matrix of a planar mesh over any scalar, exactly over the rationals; `None` unless all faces are
 /// triangles, none is degenerate and the mesh is planar ([`Surface::plane`]).
 pub fn stiffness_in_plane<S: Scalar>(surface: &Surface) -> Option<Csr<S>> {
-    let triangles = Triangles::<S>::in_plane(surface)?;
-    let edges = surface.topology().edges().iter().enumerate();
-    let weights: Vec<_> =
-        edges.map(|(e, &ends)| (ends, [weight_over(&triangles, e), weight_over(&triangles, e)])).collect();
-    Some(stiffness::from_weights(surface.positions().len(), &weights))
+    Some(stiffness_of(&Triangles::<S>::in_plane(surface)?))
+}
+
+/// The stiffness matrix of triangles over any scalar.
+pub(super) fn stiffness_of<S: Scalar>(triangles: &Triangles<S>) -> Csr<S> {
+    let surface = triangles.surface();
+    let both = |(e, &ends): (usize, &[usize; 2])| {
+        let weight = weight_over(triangles, e);
+        (ends, [weight.clone(), weight])
+    };
+    let weights: Vec<_> = surface.topology().edges().iter().enumerate().map(both).collect();
+    stiffness::from_weights(surface.positions().len(), &weights)
 }

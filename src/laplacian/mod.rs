@@ -3,8 +3,9 @@
 //! To add one: write the file and name it below, in the `catalogue`.
 //!
 //! Besides the constructions: [`shape`] holds the metric of a triangle, [`stiffness`] puts edge weights together to a
-//! matrix, [`mass`] the mass matrices that all constructions on triangles share.
+//! matrix, [`mass`] the mass matrices that all constructions on triangles share, [`exact`] knows which operators are rational.
 
+pub mod exact;
 pub mod mass;
 mod on_triangles;
 pub mod shape;
@@ -20,7 +21,8 @@ catalogue! {
     intrinsic_delaunay,
     mean_value,
     pub wachspress,
-    three_point,
+    pub three_point,
+    pub tet_cotan,
 }
 
 use std::collections::BTreeMap;
@@ -267,6 +269,21 @@ pub enum BuildError {
         face: usize,
         /// Its corners.
         corners: [usize; 3],
+        /// How many there are.
+        count: usize,
+    },
+    /// A tetrahedron of zero volume.
+    #[error(
+        "tetrahedron {tetrahedron} ({}, {}, {}, {}) has zero volume, where '{laplacian}' is not defined ({count} such \
+         tetrahedra in all); remove them", corners[0], corners[1], corners[2], corners[3]
+    )]
+    Flat {
+        /// The entry.
+        laplacian: &'static str,
+        /// The first flat tetrahedron.
+        tetrahedron: usize,
+        /// Its corners.
+        corners: [usize; 4],
         /// How many there are.
         count: usize,
     },

@@ -65,10 +65,12 @@ use std::cmp::Ordering;
 
 use super::mean_value::tan_half;
 use super::shape::{Flank, Triangles, with_sign};
-use super::{BuildError, Fact, Laplacian, Promise, When, cotan, on_triangles, wachspress};
-use crate::domain::Domain;
+use super::{BuildError, Fact, Laplacian, Promise, When, cotan, on_triangles, stiffness, wachspress};
+use crate::domain::{Domain, Surface};
+use crate::linalg::Csr;
 use crate::operator::Operator;
 use crate::parameter::{Parameter, Range, Settings};
+use crate::scalar::Scalar;
 
 const MEAN_VALUE: When = When::Between("p", 1.0, 1.0);
 const BETWEEN: When = When::Between("p", 0.0, 2.0);
@@ -178,4 +180,37 @@ fn term(flank: &Flank<'_, f64>, from: usize, p: f64) -> f64 {
     let log_ratio = 0.5 * if excess > -0.5 { excess.ln_1p() } else { (far / near).ln() };
     let cotangent = shape.cotangents[i];
     power * (((p - 1.0) * log_ratio).exp_m1() * cotangent.hypot(1.0) + tan_half(cotangent))
+}
+
+/// The stiffness matrix of a planar mesh over any scalar, exactly over the rationals, for an even p; `None` unless p is
+/// even, all faces are triangles, none is degenerate and the mesh is planar ([`Surface::plane`]).
+pub fn stiffness_in_plane<S: Scalar>(surface: &Surface, p: i32) -> Option<Csr<S>> {
+    let triangles = Triangles::<S>::in_plane(surface)?;
+    (p % 2 == 0).then(|| stiffness_of(&triangles, p))
+}
+
+/// The stiffness matrix of triangles over any scalar, p even: a triangle ijk of area A adds `r_k^p/(2A) − r_j^(p−2) cot θ_i` to
+/// ω_ij, in which only squares of lengths occur.
+pub(super) fn stiffness_of<S: Scalar>(triangles: &Triangles<S>, p: i32) -> Csr<S> {
+    let surface = triangles.surface();
+    let both = |(e, &ends): (usize, &[usize; 2])| {
+        let weight = |from: usize| {
+            triangles.beside(e).fold(S::zero(), |sum, flank| {
+                let (i, j, k) = (flank.corners[from], flank.corners[1 - from], flank.corners[2]);
+                let shape = flank.shape;
+                let far = power(&shape.squared_lengths[j], p / 2) / shape.doubled_area.clone();
+                sum + far - power(&shape.squared_lengths[k], p / 2 - 1) * shape.cotangents[i].clone()
+            })
+        };
+        (ends, [weight(0), weight(1)])
+    };
+    let weights: Vec<_> = surface.topology().edges().iter().enumerate().map(both).collect();
+    stiffness::from_weights(surface.positions().len(), &weights)
+}
+
+/// An integer power of what is not zero.
+fn power<S: Scalar>(x: &S, exponent: i32) -> S {
+    let one = S::half() + S::half();
+    let magnitude = (0..exponent.unsigned_abs()).fold(one.clone(), |product, _| product * x.clone());
+    if exponent < 0 { one / magnitude } else { magnitude }
 }

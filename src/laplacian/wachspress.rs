@@ -147,8 +147,13 @@ pub(super) fn tip_sign(triangles: &Triangles, edge: usize, i: usize, j: usize) -
 /// The stiffness matrix of a planar mesh over any scalar, exactly over the rationals; `None` unless all faces are
 /// triangles, none is degenerate and the mesh is planar ([`Surface::plane`]).
 pub fn stiffness_in_plane<S: Scalar>(surface: &Surface) -> Option<Csr<S>> {
-    let triangles = Triangles::<S>::in_plane(surface)?;
+    Some(stiffness_of(&Triangles::<S>::in_plane(surface)?))
+}
+
+/// The stiffness matrix of triangles over any scalar.
+pub(super) fn stiffness_of<S: Scalar>(triangles: &Triangles<S>) -> Csr<S> {
+    let surface = triangles.surface();
     let edges = surface.topology().edges().iter().enumerate();
-    let weights: Vec<_> = edges.map(|(e, &ends)| (ends, weights(&triangles, e))).collect();
-    Some(stiffness::from_weights(surface.positions().len(), &weights))
+    let weights: Vec<_> = edges.map(|(e, &ends)| (ends, weights(triangles, e))).collect();
+    stiffness::from_weights(surface.positions().len(), &weights)
 }

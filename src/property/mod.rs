@@ -10,6 +10,7 @@
 //! properties share, `relate` the comparison of constructions. [`recheck`] uses none of these.
 
 pub mod evidence;
+pub mod exact;
 mod excerpt;
 mod measure;
 pub mod recheck;

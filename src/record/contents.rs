@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::{
-    BrokenLine, Cell, ClaimLine, Digest, DomainLine, Exhibit, Footer, Header, Index, Line, OperatorLine, Recheck,
-    Timing, WriteError, Writer,
+    AtlasLine, BrokenLine, Cell, ClaimLine, Digest, DomainLine, Exhibit, Footer, Header, Index, Line, OperatorLine,
+    Recheck, Timing, WriteError, Writer,
 };
 
 /// Everything that a run wrote, each kind of line in the order in which it came.
@@ -22,6 +22,8 @@ pub struct Record {
     pub cells: Vec<Cell>,
     /// The claims.
     pub claims: Vec<ClaimLine>,
+    /// The exhaustive searches of small worlds.
+    pub atlas: Vec<AtlasLine>,
     /// The smallest failing cases.
     pub exhibits: Vec<Exhibit>,
     /// Seconds spent, where the run came to its end.
@@ -42,6 +44,7 @@ impl Record {
             operators: Vec::new(),
             cells: Vec::new(),
             claims: Vec::new(),
+            atlas: Vec::new(),
             exhibits: Vec::new(),
             timing: None,
             footer: None,
@@ -59,6 +62,7 @@ impl Record {
             Line::Operator(o) => self.operators.push(o),
             Line::Cell(c) => self.cells.push(c),
             Line::Claim(c) => self.claims.push(c),
+            Line::Atlas(a) => self.atlas.push(a),
             Line::Exhibit(e) => self.exhibits.push(e),
             Line::Timing(t) => match &mut self.timing {
                 None => self.timing = Some(t),
@@ -68,7 +72,8 @@ impl Record {
         }
     }
 
-    /// The lines that are results, in canonical order: header, domains, those that could not be made, operators, cells, claims, exhibits.
+    /// The lines that are results, in canonical order: header, domains, those that could not be made, operators, cells, claims, atlas,
+    /// exhibits.
     pub fn results(&self) -> impl Iterator<Item = Line> + '_ {
         std::iter::once(Line::Header(self.header.clone()))
             .chain(self.domains.iter().cloned().map(Line::Domain))
@@ -76,6 +81,7 @@ impl Record {
             .chain(self.operators.iter().cloned().map(Line::Operator))
             .chain(self.cells.iter().cloned().map(Line::Cell))
             .chain(self.claims.iter().cloned().map(Line::Claim))
+            .chain(self.atlas.iter().cloned().map(Line::Atlas))
             .chain(self.exhibits.iter().cloned().map(Line::Exhibit))
     }
 
@@ -110,10 +116,11 @@ impl Record {
         Index::of(self)
     }
 
-    /// How many cells and claims did not come out as expected, or had their evidence refused.
+    /// How many cells, claims and smallest counterexamples did not come out as expected, or had their evidence refused.
     pub fn unexpected(&self) -> usize {
         self.cells.iter().filter(|c| c.is_unexpected()).count()
             + self.claims.iter().filter(|c| c.is_unexpected()).count()
+            + self.atlas.iter().filter(|a| a.is_unexpected()).count()
     }
 }
 

@@ -42,6 +42,8 @@ pub enum Line {
     Cell(Cell),
     /// A claim of the literature and what became of it.
     Claim(ClaimLine),
+    /// What an exhaustive search of a small world came to, for one operator and one property.
+    Atlas(AtlasLine),
     /// The smallest failing case of a (laplacian, property), with its mesh, for pictures and download.
     Exhibit(Exhibit),
     /// Seconds spent; not part of the digest.
@@ -235,6 +237,57 @@ pub struct Exhibit {
     pub faces: Vec<Vec<usize>>,
     /// Edges.
     pub edges: Vec<[usize; 2]>,
+}
+
+/// What an exhaustive search of a small world came to, for one operator and one property.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct AtlasLine {
+    /// The operator's label.
+    pub laplacian: String,
+    /// The property's id.
+    pub property: String,
+    /// The world in words.
+    pub world: String,
+    /// How many domains it has.
+    pub size: usize,
+    /// How many of them were searched, smallest first: up to the counterexample, else all.
+    pub searched: usize,
+    /// Of those searched: decided.
+    pub decided: usize,
+    /// Of those searched: left open.
+    pub open: usize,
+    /// Of those searched: the property says nothing there.
+    pub silent: usize,
+    /// Of those searched: the construction refused.
+    pub refused: usize,
+    /// The weakest level at which one of them was decided.
+    pub level: Option<Level>,
+    /// The first counterexample.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub found: Option<Box<AtlasFound>>,
+}
+
+/// A counterexample that an exhaustive search met first.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct AtlasFound {
+    /// Width and height of its bounding box, in lattice steps.
+    pub extent: [i64; 2],
+    /// The verdict with its witness.
+    pub cell: Cell,
+    /// The mesh.
+    pub exhibit: Exhibit,
+}
+
+impl AtlasLine {
+    /// Whether every smaller domain of the world was decided and holds, or is one that the property says nothing about.
+    pub fn is_proved(&self) -> bool {
+        self.open == 0
+    }
+
+    /// Whether the counterexample contradicts a promise or its evidence was refused.
+    pub fn is_unexpected(&self) -> bool {
+        self.found.as_ref().is_some_and(|found| found.cell.is_unexpected())
+    }
 }
 
 /// Seconds spent.

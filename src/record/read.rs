@@ -167,6 +167,7 @@ fn key(line: &Line) -> Option<[String; 4]> {
         Line::Operator(o) => key("operator", &o.laplacian, &o.recipe, ""),
         Line::Cell(c) => key("cell", &c.laplacian, &c.property, &c.recipe),
         Line::Claim(c) => key("claim", &c.id, "", ""),
+        Line::Atlas(a) => key("atlas", &a.laplacian, &a.property, ""),
         Line::Exhibit(e) => key("exhibit", &e.laplacian, &e.property, ""),
         Line::Header(_) | Line::Timing(_) | Line::Footer(_) => None,
     }
@@ -202,6 +203,7 @@ pub(super) fn line(text: &str) -> Result<Line, String> {
         "broken" => typed(text).map(Line::Broken),
         "cell" => typed(text).map(Line::Cell),
         "claim" => typed(text).map(Line::Claim),
+        "atlas" => typed(text).map(Line::Atlas),
         "exhibit" => typed(text).map(Line::Exhibit),
         "timing" => typed(text).map(Line::Timing),
         "footer" => typed(text).map(Line::Footer),

@@ -82,6 +82,7 @@ impl<W: Write> Writer<W> {
                 self.unexpected += usize::from(claim.is_unexpected());
                 self.empty_claims += usize::from(claim.outcome == ClaimOutcome::Empty);
             }
+            Line::Atlas(line) => self.unexpected += usize::from(line.is_unexpected()),
             Line::Broken(_) => self.broken += 1,
             _ => {}
         }

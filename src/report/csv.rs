@@ -1,7 +1,7 @@
 //! Tables as comma-separated values: the taxonomy, the cells, the domains, the claims and their tests.
 
 use super::taxonomy::Count;
-use crate::record::{Cell, ClaimLine, DomainLine, Index, Recheck, Record, TestLine};
+use crate::record::{AtlasFound, AtlasLine, Cell, ClaimLine, DomainLine, Index, Recheck, Record, TestLine};
 
 /// A CSV file.
 pub type Table = Result<Vec<u8>, csv::Error>;
@@ -158,6 +158,52 @@ fn domain(d: &DomainLine) -> [String; 22] {
         d.digest.clone(),
         d.notices.join("; "),
     ]
+}
+
+/// `atlas.csv`: a row for each operator and property that a small world was searched for.
+pub fn atlas(record: &Record) -> Table {
+    let head = [
+        "laplacian",
+        "property",
+        "world",
+        "size",
+        "searched",
+        "decided",
+        "open",
+        "silent",
+        "refused",
+        "level",
+        "vertices",
+        "faces",
+        "width",
+        "height",
+        "recheck",
+        "recipe",
+    ];
+    table(
+        head,
+        record.atlas.iter().map(|line: &AtlasLine| {
+            let of = |number: fn(&AtlasFound) -> String| line.found.as_deref().map(number).unwrap_or_default();
+            [
+                line.laplacian.clone(),
+                line.property.clone(),
+                line.world.clone(),
+                line.size.to_string(),
+                line.searched.to_string(),
+                line.decided.to_string(),
+                line.open.to_string(),
+                line.silent.to_string(),
+                line.refused.to_string(),
+                optional(line.level),
+                of(|f| f.exhibit.positions.len().to_string()),
+                of(|f| f.exhibit.faces.len().to_string()),
+                of(|f| f.extent[0].to_string()),
+                of(|f| f.extent[1].to_string()),
+                of(|f| recheck(&f.cell.recheck)),
+                of(|f| f.cell.recipe.clone()),
+            ]
+        }),
+    )
 }
 
 /// `claims.csv`: a row for each claim.

@@ -4,6 +4,7 @@
 //! [`render`] gives every file of a report directory; [`text::text`] what a terminal shows. A picture or a chart as PNG comes
 //! from [`exhibit_png`] and [`plot::Chart::png`].
 
+mod atlas;
 pub mod csv;
 mod download;
 mod drawing;
@@ -23,6 +24,7 @@ mod view;
 
 use std::collections::BTreeMap;
 
+pub use atlas::smallest;
 pub use html::html;
 pub use junit::junit;
 pub use markdown::markdown;
@@ -92,6 +94,7 @@ fn tables(record: &Record) -> Result<Vec<File>, RenderError> {
     let index = record.index();
     let file = |path: &str, bytes| File { path: path.into(), bytes };
     Ok(vec![
+        file("atlas.csv", csv::atlas(record)?),
         file("taxonomy.csv", csv::taxonomy(&index)?),
         file("taxonomy.json", serde_json::to_vec(&taxonomy::as_json(&index))?),
         file("claims.csv", csv::claims(record)?),

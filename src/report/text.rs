@@ -37,6 +37,7 @@ pub fn text(record: &Record, style: Style) -> String {
     out += &table(&index, style);
     out += &unexpected(record, style);
     out += &claims(record, style);
+    out += &atlas(record);
     for notice in &record.notices {
         out += &format!("\nnotice: {notice}\n");
     }
@@ -148,6 +149,20 @@ fn unexpected(record: &Record, style: Style) -> String {
         let _ = writeln!(out, "  … and {} more", cells.len() - LISTED);
     }
     out
+}
+
+/// How many operators and properties the exhaustive search of small worlds came to what.
+fn atlas(record: &Record) -> String {
+    if record.atlas.is_empty() {
+        return String::new();
+    }
+    let (failing, holding): (Vec<_>, Vec<_>) = record.atlas.iter().partition(|line| line.found.is_some());
+    let proved = failing.iter().filter(|line| line.is_proved()).count();
+    format!(
+        "\nAtlas: {} failing, {proved} of them by a provably smallest mesh; {} without a counterexample in the small world\n",
+        plural(failing.len(), "cell"),
+        holding.len()
+    )
 }
 
 fn claims(record: &Record, style: Style) -> String {

@@ -132,6 +132,21 @@ fn judge(case: &Case, recipe: &str, choice: &Choice, domain: &Domain, facts: &Fa
     lines
 }
 
+/// The cell of one property of one operator on a domain that this recipe makes; `None` where the construction refuses it.
+pub fn cell(choice: &Choice, property: &'static Property, domain: &Domain, recipe: &str) -> Option<Cell> {
+    let case = Case {
+        class: "witness".into(),
+        recipe: recipe.parse().ok()?,
+        choices: vec![choice.clone()],
+        properties: vec![property],
+    };
+    let lines = judge(&case, recipe, choice, domain, &domain.facts(), &mut Clock::default());
+    lines.into_iter().find_map(|line| match line {
+        Line::Cell(cell) => Some(cell),
+        _ => None,
+    })
+}
+
 /// A verdict contradicts a promise only when it fails what was promised to hold; what rounding leaves open contradicts
 /// nothing.
 pub fn as_expected(promised: Option<bool>, verdict: &Verdict) -> bool {

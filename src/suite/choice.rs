@@ -4,7 +4,8 @@ use std::fmt;
 use std::str::FromStr;
 
 use super::call::{Call, CallError};
-use crate::domain::{Domain, Facts};
+use crate::domain::{Domain, Facts, Surface};
+use crate::laplacian::exact::{self, Twin};
 use crate::laplacian::{self, BuildError, Laplacian};
 use crate::operator::Operator;
 use crate::parameter::SettingsError;
@@ -41,6 +42,11 @@ impl Choice {
     /// What the entry refuses.
     pub fn build(&self, domain: &Domain) -> Result<Operator, BuildError> {
         self.laplacian.build(domain, &self.call.settings)
+    }
+
+    /// The exact matrices on a planar mesh; `None` where the operator is not rational, or the mesh not planar.
+    pub fn twin(&self, surface: &Surface) -> Option<Twin> {
+        exact::twin(self.laplacian, &self.laplacian.check(&self.call.settings).ok()?, surface)
     }
 
     /// What the entry promises of the property on a domain with these facts: `Some(true)` that it holds, `None` nothing.

@@ -3,6 +3,7 @@
 //! A [`Suite`] is read from TOML, drawn into a [`Plan`] of [`Case`]s, run in parallel with results in the order of the plan,
 //! and its claims are tested on the cells and by experiments.
 
+pub mod atlas;
 pub mod call;
 pub mod cases;
 pub mod choice;
@@ -11,6 +12,7 @@ pub mod plan;
 pub mod recipe;
 pub mod run;
 pub mod schema;
+pub mod shrink;
 pub mod witness;
 
 pub use choice::{Choice, ChoiceError};

@@ -4,6 +4,7 @@
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 
+use super::atlas::Atlas;
 use super::choice::Choice;
 use super::claims::{self, Claim};
 use super::recipe::{Recipe, RecipeError};
@@ -23,6 +24,8 @@ pub struct Plan {
     pub cases: Vec<Case>,
     /// The claims to test on them.
     pub claims: Vec<Claim>,
+    /// The search for smallest counterexamples.
+    pub atlas: Option<Atlas>,
 }
 
 /// One domain of a plan with what is tried on it.
@@ -70,7 +73,8 @@ impl Suite {
             return Err(SuiteError::Empty { suite: self.id.clone() });
         }
         let setting = Setting { seed: self.seed, effort: self.effort };
-        Ok(Plan { suite: self.id.clone(), setting, cases, claims })
+        let atlas = self.atlas(&choices, properties)?;
+        Ok(Plan { suite: self.id.clone(), setting, cases, claims, atlas })
     }
 
     /// The cases of a class, with these operators unless it names its own, and these properties but for those it leaves out.
@@ -158,14 +162,21 @@ impl Suite {
         select().map_err(|error| SuiteError::Claim { suite: self.id.clone(), error: Box::new(error) })
     }
 
+    fn atlas(&self, choices: &[Choice], properties: Vec<&'static Property>) -> Result<Option<Atlas>, SuiteError> {
+        let Some(written) = &self.atlas else { return Ok(None) };
+        let atlas = Atlas::new(written, choices, self.choices(&written.masses)?, properties);
+        atlas.map(Some).map_err(|problem| SuiteError::Atlas { suite: self.id.clone(), problem })
+    }
+
     fn bad(&self, class: &Class, problem: impl Into<String>) -> SuiteError {
         SuiteError::Class { suite: self.id.clone(), class: class.id.clone(), problem: problem.into() }
     }
 }
 
 impl Plan {
-    /// Leaves out every case, operator and property that no claim asks.
+    /// Leaves out every case, operator and property that no claim asks, and the atlas.
     pub fn narrow(&mut self) {
+        self.atlas = None;
         let claims = &self.claims;
         for case in &mut self.cases {
             let asks = |c: &Choice, p: &Property| claims.iter().any(|claim| claim.asks(c.laplacian.id, p.id));

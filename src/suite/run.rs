@@ -1,4 +1,4 @@
-//! A whole run: header, cases, claims, exhibits, timing — each line handed on as soon as it is known.
+//! A whole run: header, cases, claims, atlas, exhibits, timing — each line handed on as soon as it is known.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -77,6 +77,12 @@ pub fn run(
     let outcomes = pool.install(|| claims::test(&plan.claims, &results.facts, &results.cells, &plan.setting));
     results.parts.insert("claims".into(), claims_start.elapsed().as_secs_f64());
     outcomes.into_iter().map(Line::Claim).try_for_each(|line| write(&line))?;
+    if let Some(atlas) = &plan.atlas {
+        let atlas_start = Instant::now();
+        let lines = pool.install(|| atlas.search());
+        results.parts.insert("atlas".into(), atlas_start.elapsed().as_secs_f64());
+        lines.into_iter().map(Line::Atlas).try_for_each(|line| write(&line))?;
+    }
     exhibits(&results, &options.root).into_iter().map(Line::Exhibit).try_for_each(|line| write(&line))?;
     let (seconds, threads) = (start.elapsed().as_secs_f64(), pool.current_num_threads());
     Ok(write(&Line::Timing(Timing { seconds, threads, parts: results.parts }))?)

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use serde::Deserialize;
 
+use super::atlas;
 use super::choice::ChoiceError;
 use super::claims::ClaimError;
 use super::recipe::RecipeError;
@@ -35,6 +36,9 @@ pub struct Suite {
     /// The effort of the experiments behind the claims.
     #[serde(default)]
     pub effort: Effort,
+    /// The exhaustive search for smallest counterexamples, if there is to be one.
+    #[serde(default)]
+    pub atlas: Option<atlas::Written>,
     /// The domains.
     #[serde(rename = "class", default)]
     pub classes: Vec<Class>,
@@ -154,6 +158,14 @@ pub enum SuiteError {
         suite: String,
         /// Which class.
         class: String,
+        /// What is wrong.
+        problem: String,
+    },
+    /// An atlas that cannot be searched.
+    #[error("the atlas of suite '{suite}' {problem}")]
+    Atlas {
+        /// Which suite.
+        suite: String,
         /// What is wrong.
         problem: String,
     },

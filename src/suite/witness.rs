@@ -1,20 +1,26 @@
-//! The smallest known domain on which an operator fails a property: a search through families of small domains.
+//! The smallest domain on which an operator fails a property: the exhaustive world first, in which the first counterexample
+//! is provably the smallest; then families of small domains, for what no small planar mesh breaks.
 
 use std::path::Path;
 
+use super::atlas::{self, World};
 use super::cases;
 use super::choice::Choice;
-use super::plan::Case;
 use super::recipe::Recipe;
 use super::run::exhibit;
-use crate::domain::Domain;
+use super::shrink::shrink;
+use crate::domain::{Domain, DomainKind};
+use crate::generate::listed;
 use crate::property::{Property, Status};
-use crate::record::{Cell, Exhibit, Line};
+use crate::record::{AtlasLine, Cell, Exhibit};
 
 /// How many seeds of each size are tried.
 const SEEDS: u64 = 12;
 
-/// The domain found, with the failing cell.
+/// How often a shrinking domain is judged.
+pub const CALLS: usize = 1500;
+
+/// A domain found in a family, with the failing cell.
 pub struct Found {
     /// The domain.
     pub domain: Domain,
@@ -22,9 +28,11 @@ pub struct Found {
     pub cell: Cell,
     /// The cell's mesh, for a picture.
     pub exhibit: Exhibit,
+    /// The recipe of the domain from which it was shrunk, if it was.
+    pub from: Option<String>,
 }
 
-/// What a search came to.
+/// What a search through the families came to.
 pub struct Search {
     /// The first domain, in the order of size, on which the property fails.
     pub found: Option<Found>,
@@ -36,7 +44,14 @@ pub struct Search {
     pub skipped: usize,
 }
 
-/// Decides the property on one small domain after the other, fewest vertices first, until it fails.
+/// Searches the exhaustive world; `None` for operators that do not live on surfaces.
+pub fn smallest(choice: &Choice, property: &'static Property) -> Option<AtlasLine> {
+    let on_surfaces = choice.laplacian.accepts.contains(&DomainKind::Surface);
+    on_surfaces.then(|| atlas::search(World::of(property), &[(choice, property)]).pop())?
+}
+
+/// Decides the property on one small domain of the families after the other, fewest vertices first, until it fails; the domain is then
+/// shrunk while it still does.
 pub fn search(choice: &Choice, property: &'static Property) -> Search {
     let mut search = Search { found: None, decided: 0, open: 0, skipped: 0 };
     let mut ladder: Vec<(usize, Recipe, Domain)> = ladder()
@@ -49,31 +64,38 @@ pub fn search(choice: &Choice, property: &'static Property) -> Search {
         .collect();
     ladder.sort_by_key(|(n, _, domain)| (*n, domain.edges().len()));
     for (_, recipe, domain) in ladder {
-        match decide(choice, property, recipe) {
-            Some(cell) => match cell.verdict.status() {
-                Status::Fails => {
-                    search.decided += 1;
-                    let exhibit = exhibit(&cell, &domain);
-                    search.found = Some(Found { domain, cell, exhibit });
-                    return search;
-                }
-                Status::Holds => search.decided += 1,
-                Status::Undecided => search.open += 1,
-                Status::NotApplicable => search.skipped += 1,
-            },
-            None => search.skipped += 1,
+        let cell = cases::cell(choice, property, &domain, &recipe.to_string());
+        match cell.as_ref().map(|cell| cell.verdict.status()) {
+            Some(Status::Fails) => {
+                search.decided += 1;
+                search.found = cell.map(|cell| smaller(choice, property, domain, cell));
+                return search;
+            }
+            Some(Status::Holds) => search.decided += 1,
+            Some(Status::Undecided) => search.open += 1,
+            Some(Status::NotApplicable) | None => search.skipped += 1,
         }
     }
     search
 }
 
-/// The verdict on one domain; `None` where the construction refuses it.
-fn decide(choice: &Choice, property: &'static Property, recipe: Recipe) -> Option<Cell> {
-    let case = Case { class: "witness".into(), recipe, choices: vec![choice.clone()], properties: vec![property] };
-    cases::decide(&case, Path::new(".")).ok()?.lines.into_iter().find_map(|line| match line {
-        Line::Cell(cell) => Some(cell),
-        _ => None,
-    })
+/// A failing domain shrunk while the same property of the same operator fails, with its cell; as it was where it is no surface
+/// or no step makes it smaller.
+pub fn smaller(choice: &Choice, property: &'static Property, domain: Domain, cell: Cell) -> Found {
+    let judge = |domain: &Domain| {
+        let surface = domain.as_surface()?;
+        let recipe = listed::call(surface.positions(), surface.faces());
+        cases::cell(choice, property, domain, &recipe).filter(|cell| cell.verdict.status() == Status::Fails)
+    };
+    let shrunk = shrink(&domain, CALLS, &|domain| judge(domain).is_some()).domain;
+    let is_smaller = shrunk.digest() != domain.digest();
+    match judge(&shrunk).filter(|_| is_smaller) {
+        Some(small) => {
+            let (exhibit, from) = (exhibit(&small, &shrunk), Some(cell.recipe));
+            Found { domain: shrunk, cell: small, exhibit, from }
+        }
+        None => Found { exhibit: exhibit(&cell, &domain), domain, cell, from: None },
+    }
 }
 
 /// The families searched: every shape that the literature's counterexamples take, at its smallest sizes.
@@ -104,6 +126,11 @@ fn ladder() -> Vec<Recipe> {
         texts.push(format!("lantern:m=2,n={n}"));
         texts.push(format!("perturbed-grid:nx={n},ny={n},displacement=0.4,seed={n}"));
         texts.push(format!("slivers:columns={n},aspect=1e4"));
+    }
+    for n in 1..=3 {
+        for seed in 0..SEEDS {
+            texts.push(format!("tet-grid:nx=2,ny={n},nz=2,displacement=0.16,seed={seed}"));
+        }
     }
     for levels in 1..=2 {
         texts.push(format!("icosphere:levels={levels}"));
@@ -150,6 +177,15 @@ mod tests {
             let trial = property::Trial::new(&domain, &operator, 0).unwrap();
             assert_ne!(property::find("POS0").unwrap().decide(&trial, None).status(), Status::Fails);
         }
+    }
+
+    #[test]
+    fn what_is_found_in_a_family_is_shrunk_and_keeps_failing() {
+        let found = search("cotan", "MAX-global").found.unwrap();
+        assert!(found.from.is_some() && found.domain.vertex_count() <= 7, "{}", found.cell.recipe);
+        assert_eq!(found.cell.verdict.status(), Status::Fails);
+        let again = found.cell.recipe.parse::<Recipe>().unwrap().build(Path::new(".")).unwrap();
+        assert_eq!(again.digest(), found.domain.digest());
     }
 
     #[test]

@@ -95,7 +95,13 @@ fn a_claim_that_tests_nothing_ends_with_4() {
 fn a_witness_comes_with_mesh_picture_and_evidence_that_speaks_for_itself() {
     let scratch = Scratch::new();
     let ran = lapjury(&["witness", "cotan", "POS", "--out", &scratch.at("found")]).ends_with(0);
-    assert!(ran.out.starts_with("cotan fails POS on "), "{}", ran.out);
+    assert!(
+        ran.out.starts_with(
+            "cotan fails POS on a mesh of 4 vertices and 2 faces in a box 1 × 1: provably the smallest, number "
+        ),
+        "{}",
+        ran.out
+    );
     assert!(ran.out.contains("  recheck: exact\n") && ran.out.contains("  replay: lapjury check "), "{}", ran.out);
     let cell: Cell = serde_json::from_str(&scratch.read("found/cotan-POS.json")).unwrap();
     assert_eq!(recheck::from_excerpt(cell.verdict.evidence().unwrap()), Ok(Rechecked::Exact));
@@ -108,5 +114,51 @@ fn a_witness_comes_with_mesh_picture_and_evidence_that_speaks_for_itself() {
 #[test]
 fn where_no_counterexample_is_known_the_search_ends_with_4() {
     let ran = lapjury(&["witness", "graph", "LOC"]).ends_with(4);
-    assert!(ran.out.starts_with("no counterexample: LOC was decided on "), "{}", ran.out);
+    assert!(
+        ran.out.starts_with("graph fails LOC on none of every triangulation of every set of 3 to 6 points"),
+        "{}",
+        ran.out
+    );
+    assert!(ran.out.contains("\nno counterexample: LOC was decided on "), "{}", ran.out);
+}
+
+#[test]
+fn the_json_of_a_witness_has_the_cases_searched_and_the_mesh() {
+    let json = lapjury(&["witness", "cotan", "POS0", "--format", "json"]).ends_with(0).json();
+    let line = &json["exhaustive"];
+    assert_eq!(
+        (&line["open"], &line["level"], &json["families"]),
+        (&0.into(), &"exact".into(), &serde_json::Value::Null)
+    );
+    assert!(line["searched"].as_u64().unwrap() < line["size"].as_u64().unwrap());
+    assert_eq!(line["found"]["exhibit"]["positions"].as_array().unwrap().len(), 4);
+    // No surface: the families of volumes are searched.
+    let volume = lapjury(&["witness", "tet-cotan", "POS0", "--format", "json"]).ends_with(0).json();
+    assert_eq!(volume["exhaustive"], serde_json::Value::Null);
+    assert!(volume["families"]["cell"]["recipe"].as_str().unwrap().starts_with("tet-grid"));
+}
+
+#[test]
+fn a_failing_mesh_shrinks_to_one_that_fails_alike() {
+    let scratch = Scratch::new();
+    let ran = lapjury(&[
+        "check",
+        "--domain",
+        "random-delaunay:n=40,seed=7 | flip:count=20,seed=7",
+        "--laplacian",
+        "cotan",
+        "--property",
+        "POS0",
+        "--shrink",
+        &scratch.at("small"),
+    ])
+    .ends_with(0);
+    assert!(
+        ran.err.contains("POS0 still fails on 4 vertices instead of 40: lapjury check --domain 'listed:"),
+        "{}",
+        ran.err
+    );
+    let mesh = scratch.at("small/cotan-POS0.off");
+    let again = lapjury(&["check", "--mesh", &mesh, "--laplacian", "cotan", "--property", "POS0"]).ends_with(0);
+    assert!(again.out.contains("POS0         fails          exact"), "{}", again.out);
 }

@@ -33,6 +33,8 @@ pub const GENERATED: &[&str] = &[
     "disk:levels=1",
     "schonhardt:nested=2",
     "lantern:m=4,n=5",
+    "listed",
+    "tet-grid:nx=2,ny=2,nz=2,displacement=0.16,seed=1",
     "slivers:shape=needle,aspect=1e6,columns=3,rows=3",
     "slivers:shape=cap,aspect=1e8,columns=3,rows=3",
     "fan:k=3",

@@ -51,6 +51,7 @@ pub fn catalogue() -> Vec<Maker> {
                 Range::Choice(words) => words.iter().map(|w| w.to_string()).collect(),
                 Range::Number(low, high) => [low, 0.5 * (low + high), high].map(|x| x.to_string()).to_vec(),
                 Range::Whole(low, high) => [low, high].map(|x| x.to_string()).to_vec(),
+                Range::Form(..) => vec![parameter.default.to_string()],
             };
             let others = values.into_iter().filter(|v| v != parameter.default);
             makers.extend(others.map(|value| of(entry, &[(parameter.name, value)])));

@@ -6,8 +6,8 @@ use lapjury::domain::{Domain, Graph, Surface};
 use lapjury::property::evidence::{Corner, Row, Which};
 use lapjury::property::{Evidence, Excerpt, Level, Statement, Tally, Verdict};
 use lapjury::record::{
-    Cell, ClaimLine, ClaimOutcome, DomainLine, Exhibit, Header, Line, OperatorLine, Recheck, Record, SCHEMA, TestLine,
-    Timing, Writer,
+    AtlasFound, AtlasLine, Cell, ClaimLine, ClaimOutcome, DomainLine, Exhibit, Header, Line, OperatorLine, Recheck,
+    Record, SCHEMA, TestLine, Timing, Writer,
 };
 
 pub fn header(suite: &str) -> Header {
@@ -446,6 +446,32 @@ pub fn claims() -> Vec<ClaimLine> {
     ]
 }
 
+/// A cell with a smallest counterexample, one with a first known, one without, and one of an operator that has no cells.
+pub fn atlas(place: &Place, cell: &Cell) -> Vec<AtlasLine> {
+    let line = |laplacian: &str, property: &str, open: usize, found: bool| AtlasLine {
+        laplacian: laplacian.into(),
+        property: property.into(),
+        world: "every triangulation of 3 points".into(),
+        size: 6917,
+        searched: if found { 34 } else { 6917 },
+        decided: if found { 5 } else { 6900 },
+        open,
+        silent: if found { 29 - open } else { 17 - open },
+        refused: 0,
+        level: Some(Level::Exact),
+        found: found.then(|| {
+            Box::new(AtlasFound { extent: [2, 1], cell: cell.clone(), exhibit: place.exhibit(laplacian, property) })
+        }),
+    };
+    vec![
+        line("cotan", "POS", 0, true),
+        line("graph", "LIN", 2, true),
+        line("cotan:mass=voronoi", "MASS", 0, true),
+        line("cotan:mass=unit", "MASS", 0, true),
+        line("cotan", "SYM", 0, false),
+    ]
+}
+
 /// Two operators, three properties, two domains.
 pub fn tiny() -> Record {
     let mut record = Record::new(header("tiny"));
@@ -470,6 +496,7 @@ pub fn tiny() -> Record {
     record.cells[6].promised = Some(true);
     record.exhibits = vec![kite.exhibit("cotan", "POS")];
     record.claims = claims().into_iter().take(3).collect();
+    record.atlas = atlas(&kite, &record.cells[5]);
     Record::parse(&written(&record)).unwrap()
 }
 

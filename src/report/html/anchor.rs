@@ -11,9 +11,14 @@ pub struct Anchors {
 }
 
 impl Anchors {
-    /// Chooses the anchors. Where two names become equal the later one gets a number.
-    pub fn of<'a>(index: &Index, claims: impl Iterator<Item = &'a str>) -> Self {
-        let names = distinct(index.laplacians.iter().chain(&index.properties).copied(), &[]);
+    /// Chooses the anchors; `more` are operators and properties that have no cell. Where two names become equal the later one
+    /// gets a number.
+    pub fn of<'a>(
+        index: &Index<'a>,
+        more: impl Iterator<Item = &'a str>,
+        claims: impl Iterator<Item = &'a str>,
+    ) -> Self {
+        let names = distinct(index.laplacians.iter().chain(&index.properties).copied().chain(more), &[]);
         let taken: Vec<&str> = super::SECTIONS.iter().map(|s| s.0).chain(["unexpected"]).collect();
         Anchors { names, claims: distinct(claims, &taken) }
     }

@@ -2,6 +2,7 @@
 //! on light and dark screens, narrow ones, and on paper. A file for each section.
 
 mod anchor;
+mod atlas;
 mod claims;
 mod evidence;
 mod exhibits;
@@ -29,9 +30,10 @@ struct Page<'a> {
 const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
 
 /// The sections, by anchor and title, as the navigation lists them.
-const SECTIONS: [(&str, &str); 8] = [
+const SECTIONS: [(&str, &str); 9] = [
     ("taxonomy", "Taxonomy"),
     ("claims", "Claims"),
+    ("atlas", "Atlas"),
     ("exhibits", "Exhibits"),
     ("evidence", "Evidence"),
     ("plots", "Plots"),
@@ -47,7 +49,8 @@ const SECTIONS: [(&str, &str); 8] = [
 /// What a chart refuses.
 pub fn html(record: &Record, options: &Options, files: &[File]) -> Result<String, RenderError> {
     let index = record.index();
-    let anchors = Anchors::of(&index, record.claims.iter().map(|c| c.id.as_str()));
+    let in_atlas = record.atlas.iter().flat_map(|line| [line.laplacian.as_str(), line.property.as_str()]);
+    let anchors = Anchors::of(&index, in_atlas, record.claims.iter().map(|c| c.id.as_str()));
     let page = Page { record, index, options, anchors };
     let plots = plots(record)?;
     let body = html! {
@@ -72,6 +75,7 @@ pub fn html(record: &Record, options: &Options, files: &[File]) -> Result<String
                     (matrix::section(&page))
                     (tables::unexpected(&page))
                     (claims::section(&page))
+                    (atlas::section(&page))
                     (exhibits::section(&page))
                     (evidence::section(&page))
                     (plots)
