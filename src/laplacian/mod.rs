@@ -5,6 +5,7 @@
 //! Besides the constructions: [`shape`] holds the metric of a triangle, [`stiffness`] puts edge weights together to a
 //! matrix, [`mass`] the mass matrices that all constructions on triangles share.
 
+pub mod equilibrium;
 pub mod mass;
 mod on_triangles;
 pub mod shape;

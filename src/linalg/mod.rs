@@ -1,13 +1,16 @@
-//! The wall around the linear algebra: our own compressed rows over any scalar, and `faer` behind [`factor`].
+//! The wall around the linear algebra: our own compressed rows over any scalar, and `faer` behind [`factor`],
+//! `clarabel` behind [`program`].
 //!
-//! Nothing outside this module names a type of `faer`.
+//! Nothing outside this module names a type of either.
 
 pub mod backward;
 pub mod certified;
 pub mod csr;
 pub mod exact;
 pub mod factor;
+pub mod program;
 pub mod rational;
+pub mod simplex;
 
 pub use csr::Csr;
 pub use exact::Dense;

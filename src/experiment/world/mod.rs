@@ -3,4 +3,5 @@
 pub mod excerpt;
 pub mod graphs;
 pub mod harmonic;
+pub mod planar;
 pub mod triangulations;
