@@ -15,6 +15,7 @@ pub mod number;
 mod picture;
 pub mod plot;
 pub mod png;
+mod reciprocal;
 mod sentence;
 mod svg;
 pub mod taxonomy;
@@ -26,6 +27,7 @@ use std::collections::BTreeMap;
 pub use html::html;
 pub use junit::junit;
 pub use markdown::markdown;
+pub use reciprocal::{Figure, figures};
 pub use sentence::{sentence, statement};
 
 use crate::record::{Cell, Exhibit, Record};

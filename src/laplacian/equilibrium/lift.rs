@@ -26,6 +26,9 @@ pub struct Lift {
     /// Whether faces are clockwise in these coordinates.
     turned: bool,
     disc: bool,
+    /// The face of the smallest area. Heights are counted from its plane, so that where a mesh is finest they are smallest,
+    /// and floating point has most digits.
+    smallest: usize,
 }
 
 impl Lift {
@@ -55,7 +58,11 @@ impl Lift {
         let pinched = !topology.non_manifold_vertices(surface.faces()).is_empty();
         let disc = whole && euler && !pinched && topology.boundary_loops() == 1;
         let edges = topology.edges().to_vec();
-        Some(Lift { positions, faces, edges, hinges, turned: turn == Ordering::Less, disc })
+        let size = |f: &[usize; 3]| {
+            geometry::doubled_area(&positions[f[0]], &positions[f[1]], &positions[f[2]]).magnitude().approximate()
+        };
+        let smallest = (0..faces.len()).min_by(|&f, &g| size(&faces[f]).total_cmp(&size(&faces[g])))?;
+        Some(Lift { positions, faces, edges, hinges, turned: turn == Ordering::Less, disc, smallest })
     }
 
     /// Whether the triangulation is a disc: then every equilibrium is a lift.
@@ -110,9 +117,9 @@ impl Lift {
         }
         let mut gradients: Vec<Option<[S; 2]>> = vec![None; self.faces.len()];
         let mut heights: Vec<Option<S>> = vec![None; positions.len()];
-        gradients[0] = Some([S::zero(), S::zero()]);
-        self.faces[0].iter().for_each(|&v| heights[v] = Some(S::zero()));
-        let mut queue = std::collections::VecDeque::from([0]);
+        gradients[self.smallest] = Some([S::zero(), S::zero()]);
+        self.faces[self.smallest].iter().for_each(|&v| heights[v] = Some(S::zero()));
+        let mut queue = std::collections::VecDeque::from([self.smallest]);
         while let Some(face) = queue.pop_front() {
             let Some(gradient) = gradients[face].clone() else { continue };
             for &(other, hinge, back) in &beside[face] {
@@ -144,21 +151,24 @@ impl Lift {
 
     /// The heights of proposed weights in whole numbers, with as few digits as survive the verification.
     pub fn rounded(&self, weights: &[f64], net: &Net) -> Option<Vec<Rational>> {
-        let heights = self.levelled(self.heights(weights, net));
+        let exact = self.heights(weights, net);
+        let heights = self.levelled(&exact);
         let largest = heights.iter().fold(0.0, |m: f64, h| m.max(h.abs()));
         if !(largest.is_finite() && largest > 0.0) {
             let flat = vec![Rational::ZERO; heights.len()];
             return self.hinges.is_empty().then_some(flat);
         }
-        DIGITS.iter().find_map(|bits| {
+        let whole = DIGITS.iter().map(|bits| {
             let scale = 2_f64.powi(*bits) / largest;
-            let proposed: Vec<Rational> = heights.iter().map(|h| rounded(h * scale)).collect();
-            self.is_convex(&proposed).then_some(proposed)
-        })
+            heights.iter().map(|h| rounded(h * scale)).collect::<Vec<Rational>>()
+        });
+        // A mesh of many scales has heights of many scales, which floating point has and a whole number has not.
+        let floating = exact.iter().map(|&h| Rational::exactly(h).unwrap_or_else(Rational::zero)).collect();
+        whole.chain([floating]).find(|proposed| self.is_convex(proposed))
     }
 
     /// Heights less the linear function that fits them best, so that no digits are spent on it.
-    fn levelled(&self, heights: Vec<f64>) -> Vec<f64> {
+    fn levelled(&self, heights: &[f64]) -> Vec<f64> {
         let n = heights.len() as f64;
         let x: Vec<[f64; 2]> = self.positions.iter().map(|p| [p[0].approximate(), p[1].approximate()]).collect();
         let mean = |value: &dyn Fn(usize) -> f64| (0..heights.len()).map(value).sum::<f64>() / n;
@@ -170,7 +180,7 @@ impl Lift {
         let determinant = xx * yy - xy * xy;
         let (s, t) = ((yy * xh - xy * yh) / determinant, (xx * yh - xy * xh) / determinant);
         if !(s.is_finite() && t.is_finite()) {
-            return heights;
+            return heights.to_vec();
         }
         (0..heights.len()).map(|v| dh(v) - s * dx(v) - t * dy(v)).collect()
     }

@@ -157,11 +157,13 @@ impl Net {
         if largest == 0.0 {
             return None;
         }
-        DIGITS.iter().find_map(|bits| {
+        let whole = DIGITS.iter().map(|bits| {
             let scale = 2_f64.powi(*bits) / largest;
-            let motion: Vec<_> = proposed.iter().map(|y| y.map(|y| rounded(y * scale))).collect();
-            self.is_refuted_by(&motion).then_some(motion)
-        })
+            proposed.iter().map(|y| y.map(|y| rounded(y * scale))).collect::<Vec<_>>()
+        });
+        let exact = |y: f64| Rational::exactly(y).unwrap_or_else(Rational::zero);
+        let floating = proposed.iter().map(|y| y.map(exact)).collect();
+        whole.chain([floating]).find(|motion| self.is_refuted_by(motion))
     }
 }
 

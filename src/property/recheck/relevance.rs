@@ -57,6 +57,10 @@ fn describe(statement: &Statement) -> (&'static str, bool, &'static [&'static st
         Statement::MassNotPositive { .. } => ("mass-not-positive", true, &["MASS"]),
         Statement::MassShare { .. } => ("mass-share", true, &["MASS"]),
         Statement::Changed { .. } => ("changed", true, RELATIONS),
+        Statement::Lift { .. } => ("lift", true, &[]),
+        Statement::Equilibrium { .. } => ("equilibrium", true, &[]),
+        Statement::Motion { .. } => ("motion", true, &[]),
+        Statement::NoLift { .. } => ("no-lift", true, &[]),
         Statement::Scan { .. } => (
             "scan",
             false,
