@@ -22,6 +22,8 @@ catalogue! {
     mean_value,
     pub wachspress,
     three_point,
+    pub orthogonal_dual,
+    optimal_positive,
 }
 
 use std::collections::BTreeMap;
@@ -332,6 +334,17 @@ pub enum BuildError {
         what: &'static str,
         /// What to do.
         remedy: &'static str,
+    },
+    /// No positive weights in equilibrium exist.
+    #[error(
+        "'{laplacian}' does not exist on this mesh: {}; flip edges until the triangulation is a weighted Delaunay one",
+        certificate.in_words()
+    )]
+    NoPositiveWeights {
+        /// The entry.
+        laplacian: &'static str,
+        /// The motion that shows it.
+        certificate: Box<equilibrium::Certificate>,
     },
     /// A weight or mass that came out NaN or infinite.
     #[error(

@@ -34,9 +34,11 @@ mod net;
 pub use lift::Lift;
 pub use net::Net;
 
+use std::cmp::Ordering;
+
 use crate::domain::Surface;
 use crate::linalg::{program, simplex};
-use crate::scalar::Rational;
+use crate::scalar::{Rational, Scalar};
 
 /// What shows that positive weights in equilibrium exist, or that they do not.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,6 +55,27 @@ impl Certificate {
     /// Whether it shows that positive weights exist.
     pub fn is_positive(&self) -> bool {
         !matches!(self, Certificate::Motion(_))
+    }
+
+    /// What it shows, with the first numbers of it.
+    pub fn in_words(&self) -> String {
+        match self {
+            Certificate::Heights(h) => format!("{} heights are strictly convex across every interior edge", h.len()),
+            Certificate::Weights(w) => format!("{} positive weights are in equilibrium at interior vertices", w.len()),
+            Certificate::Motion(y) => {
+                let number = |x: &Rational| x.approximate();
+                let moved = || y.iter().enumerate().filter(|(_, y)| y.iter().any(|x| x.cmp_zero() != Ordering::Equal));
+                let some: Vec<String> =
+                    moved().take(4).map(|(v, y)| format!("{v} by ({}, {})", number(&y[0]), number(&y[1]))).collect();
+                let rest = moved().count().saturating_sub(4);
+                let more = if rest > 0 { format!(" and {rest} others") } else { String::new() };
+                format!(
+                    "with the boundary held, moving vertex {}{more} shortens no edge with an interior end and lengthens one, \
+                     which positive weights in equilibrium forbid",
+                    some.join(", ")
+                )
+            }
+        }
     }
 }
 
