@@ -20,6 +20,8 @@ catalogue! {
     heat_flow,
     linear_precision_of_graphs,
     cotangent_sign,
+    orthogonal_duals,
+    pub no_free_lunch,
 }
 
 use crate::property::{Evidence, Level};

@@ -57,11 +57,10 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use super::equilibrium::{Certificate, Lift, Net, decide};
+use super::equilibrium::{self, Certificate, Lift, Net, decide};
 use super::shape::Triangles;
 use super::{BuildError, Fact, Laplacian, Promise, mass, on_triangles, stiffness};
 use crate::domain::{Domain, Surface};
-use crate::linalg::factor::Ldlt;
 use crate::linalg::{Csr, program};
 use crate::operator::{Operator, Provenance};
 use crate::parameter::Settings;
@@ -168,30 +167,8 @@ impl Program {
     fn optimum(&self) -> Option<Vec<f64>> {
         let (mut weights, _) = program::largest_minimum(&self.equations, &self.shares)?;
         for _ in 0..3 {
-            weights = self.projected(weights)?;
+            weights = equilibrium::projected(&self.equations, weights)?;
         }
         weights.iter().all(|w| *w > 0.0).then_some(weights)
-    }
-
-    /// The weights moved onto the equations, each in proportion to its size: `ω − W Aᵀ (A W Aᵀ)⁻¹ A ω` with `W = diag(ω²)`.
-    fn projected(&self, weights: Vec<f64>) -> Option<Vec<f64>> {
-        if self.equations.rows() == 0 {
-            return Some(weights);
-        }
-        let scaled = self.equations.map(|_, j, v| v * weights[j]);
-        let n = self.equations.rows();
-        let across = scaled.transpose();
-        let mut entries = Vec::new();
-        for edge in 0..across.rows() {
-            for (i, a) in across.row(edge) {
-                entries.extend(across.row(edge).map(|(j, b)| (i, j, a * b)));
-            }
-        }
-        let normal = Csr::from_triplets(n, n, &entries);
-        let mut multipliers = [self.equations.mul(&weights)];
-        Ldlt::new(&normal).ok()?.solve(&mut multipliers);
-        let correction = across.mul(&multipliers[0]);
-        let corrected: Vec<f64> = weights.iter().zip(correction).map(|(w, c)| w - w * c).collect();
-        corrected.iter().all(|w| w.is_finite()).then_some(corrected)
     }
 }

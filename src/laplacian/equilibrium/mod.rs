@@ -37,7 +37,8 @@ pub use net::Net;
 use std::cmp::Ordering;
 
 use crate::domain::Surface;
-use crate::linalg::{program, simplex};
+use crate::linalg::factor::Ldlt;
+use crate::linalg::{Csr, program, simplex};
 use crate::scalar::{Rational, Scalar};
 
 /// What shows that positive weights in equilibrium exist, or that they do not.
@@ -115,10 +116,40 @@ fn propose(net: &Net, lift: &Lift) -> Option<Certificate> {
     let split = program::split(&net.forces())?;
     if split.carried.iter().all(|c| *c) {
         // Weights off a disc obey equations, which rounding breaks.
+        if !lift.is_disc() {
+            return None;
+        }
         let weights = net.weights_of(&split.solution);
-        return if lift.is_disc() { lift.rounded(&weights, net).map(Certificate::Heights) } else { None };
+        let exact = || projected(&net.equations(), projected(&net.equations(), weights.clone())?);
+        let heights = lift.rounded(&weights, net).or_else(|| lift.rounded(&exact()?, net));
+        return heights.map(Certificate::Heights);
     }
     net.rounded_motion(&split).map(Certificate::Motion)
+}
+
+/// Weights moved onto the equations, each in proportion to its size: `ω − W Aᵀ (A W Aᵀ)⁻¹ A ω` with `W = diag(ω²)`. `None` where that
+/// cannot be computed.
+///
+/// A solver meets the equations up to its tolerance for the largest weights, and this for each vertex up to those there.
+pub(super) fn projected(equations: &Csr, weights: Vec<f64>) -> Option<Vec<f64>> {
+    let n = equations.rows();
+    if n == 0 {
+        return Some(weights);
+    }
+    let scaled = equations.map(|_, j, v| v * weights[j]);
+    let across = scaled.transpose();
+    let mut entries = Vec::new();
+    for edge in 0..across.rows() {
+        for (i, a) in across.row(edge) {
+            entries.extend(across.row(edge).map(|(j, b)| (i, j, a * b)));
+        }
+    }
+    let normal = Csr::from_triplets(n, n, &entries);
+    let mut multipliers = [equations.mul(&weights)];
+    Ldlt::new(&normal).ok()?.solve(&mut multipliers);
+    let correction = across.mul(&multipliers[0]);
+    let corrected: Vec<f64> = weights.iter().zip(correction).map(|(w, c)| w - w * c).collect();
+    corrected.iter().all(|w| w.is_finite()).then_some(corrected)
 }
 
 fn exactly(net: &Net, lift: &Lift) -> Certificate {

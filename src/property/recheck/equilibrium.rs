@@ -62,8 +62,11 @@ impl Mesh {
         let mut mesh =
             Mesh { at, faces: BTreeMap::new(), edges: BTreeMap::new(), boundary: BTreeSet::new(), clockwise: false };
         let mut turns = BTreeSet::new();
-        for (index, face) in m.faces {
+        for (place, (index, face)) in m.faces.iter().enumerate() {
             let malformed = |problem| Refusal::Malformed { what: "face", index: *index, problem };
+            if place != *index {
+                return Err(malformed("is out of order: the whole mesh is needed, faces numbered from 0"));
+            }
             let &[a, b, c] = face.as_slice() else { return Err(malformed("is no triangle")) };
             turns.insert(mesh.area([a, b, c]).cmp_zero());
             mesh.faces.insert(*index, [a, b, c]);
