@@ -17,6 +17,7 @@ use crate::domain::Surface;
 use crate::generate::Stream;
 use crate::laplacian::equilibrium::{Certificate, Lift, decide_by_simplex};
 use crate::laplacian::orthogonal_dual::stiffness_in_plane;
+use crate::property::Evidence;
 use crate::scalar::{Rational, Scalar};
 
 /// The catalogue entry.
@@ -103,15 +104,20 @@ struct Small {
     surface: Surface,
     certified: Result<Certified, String>,
     /// A lift above which every vertex is, or the evidence that there is none.
-    global: Option<Result<Vec<Rational>, crate::property::Evidence>>,
+    global: Option<Result<Vec<Rational>, Evidence>>,
+    /// A lift that is convex across every interior edge, or the evidence that there is none.
+    local: Option<Result<Vec<Rational>, Evidence>>,
+    /// What the exact simplex method alone says.
+    second: Option<bool>,
 }
 
 fn small_discs(seed: u64, count: usize) -> Vec<Small> {
     let make = |k: usize| {
         let Specimen { recipe, domain } = specimen(k, 10, &mut Stream::new(seed, &format!("{}/small/{k}", ENTRY.id)));
         let surface = domain.as_surface()?.clone();
-        let (certified, global) = (certified(&surface), lifting(&surface, Lifting::Global));
-        Some(Small { recipe, surface, certified, global })
+        let [global, local] = [Lifting::Global, Lifting::Local].map(|which| lifting(&surface, which));
+        let second = decide_by_simplex(&surface).map(|c| c.is_positive());
+        Some(Small { certified: certified(&surface), recipe, surface, global, local, second })
     };
     (0..count).into_par_iter().filter_map(make).collect()
 }
@@ -131,8 +137,7 @@ fn on_small_discs(small: &[Small]) -> Vec<Finding> {
     for case in small {
         let told = |why: &str| Some(Case::told(format!("{}: {why}", case.recipe)));
         let positive = case.certified.as_ref().map(|c| c.decision.certificate.is_positive());
-        let second = decide_by_simplex(&case.surface).map(|c| c.is_positive());
-        simplex.ask(if positive.as_ref().ok() == second.as_ref() { None } else { told("the two ways differ") });
+        simplex.ask(if positive.as_ref().ok() == case.second.as_ref() { None } else { told("the two ways differ") });
         let global = case.global.as_ref().map(|g| g.as_ref().map_err(verified));
         let (lifted, refuted) = match &global {
             Some(Ok(_)) => (true, false),
@@ -145,7 +150,7 @@ fn on_small_discs(small: &[Small]) -> Vec<Finding> {
         });
         // Positive duals are those of some weights: the lift has them; without a lift no weights do, by the exact method.
         let has_duals = heights.is_some_and(|h| duals_are_the_lift(&case.surface, h) == Some(true));
-        let none = matches!(lifting(&case.surface, Lifting::Local), Some(Err(evidence)) if verified(&evidence).is_ok());
+        let none = matches!(&case.local, Some(Err(evidence)) if verified(evidence).is_ok());
         duals.ask(match (has_duals, none, lifted, refuted) {
             (true, false, true, false) | (false, true, false, true) => None,
             _ => told("positive duals without a weighted Delaunay triangulation, or the reverse"),
@@ -181,7 +186,6 @@ fn on_small_discs(small: &[Small]) -> Vec<Finding> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::experiment::Effort;
 
     #[test]
     fn duals_of_other_weights_are_not_the_lift() {
@@ -193,12 +197,5 @@ mod tests {
         let lift = Lift::of(&star).unwrap();
         assert_eq!(lift.weights(&paraboloid), [0.5, 2.0, 0.5, 2.0].map(number));
         assert!(lift.is_convex(&paraboloid) && !lift.is_convex(&vec![Rational::ZERO; 5]));
-    }
-
-    #[test]
-    fn the_experiment_is_the_same_for_the_same_seed_and_leaves_nothing_open() {
-        let setting = Setting { seed: 5, effort: Effort::Smoke };
-        let (first, second) = (run(&setting), run(&setting));
-        assert!(first == second && first.iter().all(|f| f.decided > 0 && f.open == 0));
     }
 }

@@ -1,5 +1,7 @@
 //! Where positive weights exist without a weighted Delaunay triangulation: the domains that are no disc with convex boundary.
 
+use rayon::prelude::*;
+
 use super::super::poll::{Case, Every, Search};
 use super::super::world::certified::{certified, verified};
 use super::super::world::lifting::{Lifting, lifting};
@@ -116,7 +118,8 @@ fn non_convex_discs(small: &[Small]) -> Vec<Answer> {
         Some((twisted(m, &ratio(2, 5), 1)?, text))
     });
     let random = small.iter().step_by(3).map(|s| (s.surface.clone(), s.recipe.clone()));
-    twisted.chain(random).filter_map(|(surface, text)| bitten(&surface, &text)).collect()
+    let discs: Vec<(Surface, String)> = twisted.chain(random).collect();
+    discs.par_iter().filter_map(|(surface, text)| bitten(surface, text)).collect()
 }
 
 fn bitten(surface: &Surface, text: &str) -> Option<Answer> {

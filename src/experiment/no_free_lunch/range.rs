@@ -1,8 +1,10 @@
 //! For which twists nested triangles have no positive weights, found by bisection over rational twists.
 
+use rayon::prelude::*;
+
 use super::super::poll::{Case, Every};
 use super::super::world::certified::certified;
-use super::super::world::twisted::{Twist, degrees, ratio, turns, twisted};
+use super::super::world::twisted::{Twist, degrees, faces, ratio, turns, twisted};
 use super::ENTRY;
 use crate::experiment::Finding;
 use crate::laplacian::equilibrium::Net;
@@ -16,7 +18,7 @@ const SIZES: [(i64, i64); 3] = [(1, 5), (2, 5), (1, 2)];
 fn is_positive(m: &Twist, size: &Rational, nested: usize) -> Option<bool> {
     let corners = turns(m, size, nested)?;
     let held: Vec<bool> = (0..corners.len()).map(|v| v < 3).collect();
-    let mut edges: Vec<[usize; 2]> = super::super::world::twisted::faces(nested)
+    let mut edges: Vec<[usize; 2]> = faces(nested)
         .iter()
         .flat_map(|f| [[f[0], f[1]], [f[1], f[2]], [f[2], f[0]]])
         .map(|[i, j]| [i.min(j), i.max(j)])
@@ -119,23 +121,22 @@ fn certificates() -> Finding {
 fn range(steps: usize) -> Finding {
     let mut poll = Every::default();
     let (mut ranges, mut decided) = (Vec::new(), 0);
-    for nested in [1, 2] {
-        for (n, d) in SIZES {
-            let size = ratio(n, d);
-            let (found, count) = changes(&size, nested, steps);
-            decided += count;
-            let changes: Vec<String> = found
-                .iter()
-                .map(|c| {
-                    let (from, to) = (word(c.from), word(c.to));
-                    format!("{from} up to {:.4}°, {to} from {:.4}°", degrees(&c.below), degrees(&c.above))
-                })
-                .collect();
-            ranges.push(format!("{nested} of size {n}/{d}: {}", changes.join("; ")));
-            // From 0 on there are none, whatever the number and the size, up to where a triangle folds.
-            let none = (0..=16).map(|k| ratio(k, 8)).all(|m| is_positive(&m, &size, nested) != Some(true));
-            poll.ask((!none).then(|| Case::told(format!("{nested} triangles of size {n}/{d}"))));
-        }
+    let families: Vec<(usize, (i64, i64))> = [1, 2].iter().flat_map(|&n| SIZES.map(|size| (n, size))).collect();
+    let decide = |&(nested, (n, d)): &(usize, (i64, i64))| changes(&ratio(n, d), nested, steps);
+    let results: Vec<_> = families.par_iter().map(decide).collect();
+    for (&(nested, (n, d)), (found, count)) in families.iter().zip(&results) {
+        decided += count;
+        let changes: Vec<String> = found
+            .iter()
+            .map(|c| {
+                let (from, to) = (word(c.from), word(c.to));
+                format!("{from} up to {:.4}°, {to} from {:.4}°", degrees(&c.below), degrees(&c.above))
+            })
+            .collect();
+        ranges.push(format!("{nested} of size {n}/{d}: {}", changes.join("; ")));
+        // From 0 on there are none, whatever the number and the size, up to where a triangle folds.
+        let none = found.iter().all(|c| c.to != Some(true) || c.above < Rational::ZERO);
+        poll.ask((!none).then(|| Case::told(format!("{nested} triangles of size {n}/{d}"))));
     }
     let mut finding = poll.answer(
         ENTRY.parts[9],
@@ -154,7 +155,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn one_triangle_inside_has_positive_weights_exactly_at_negative_twists() {
+    fn one_triangle_inside_has_positive_weights_exactly_between_minus_120_degrees_and_0() {
         let size = ratio(2, 5);
         for (n, d, expected) in [(-1, 1 << 20, true), (0, 1, false), (1, 1 << 20, false), (-2, 1, true), (1, 4, false)]
         {
@@ -163,7 +164,10 @@ mod tests {
         assert_eq!(is_positive(&ratio(3, 2), &size, 1), None);
         let (found, _) = changes(&size, 1, 8);
         let words: Vec<_> = found.iter().map(|c| (c.from, c.to)).collect();
-        assert_eq!(words, [(None, Some(true)), (Some(true), Some(false)), (Some(false), None)]);
-        assert!(found[1].below < Rational::ZERO && found[1].above == Rational::ZERO);
+        let (yes, no) = (Some(true), Some(false));
+        assert_eq!(words, [(None, no), (no, yes), (yes, no), (no, None)]);
+        // −120° is m = −3: there, as at 0, edges of the inner triangle are parallel to outer ones.
+        assert!(found[1].below == ratio(-3, 1) && (degrees(&found[1].below) + 120.0).abs() < 1e-12);
+        assert!(found[2].below < Rational::ZERO && found[2].above == Rational::ZERO);
     }
 }
