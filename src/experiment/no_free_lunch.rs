@@ -138,19 +138,18 @@ fn on_small_discs(small: &[Small]) -> Vec<Finding> {
         let told = |why: &str| Some(Case::told(format!("{}: {why}", case.recipe)));
         let positive = case.certified.as_ref().map(|c| c.decision.certificate.is_positive());
         simplex.ask(if positive.as_ref().ok() == case.second.as_ref() { None } else { told("the two ways differ") });
-        let global = case.global.as_ref().map(|g| g.as_ref().map_err(verified));
-        let (lifted, refuted) = match &global {
+        let shown = |lift: &Option<Result<Vec<Rational>, Evidence>>| match lift {
             Some(Ok(_)) => (true, false),
-            Some(Err(Ok(_))) => (false, true),
-            _ => (false, false),
+            Some(Err(evidence)) => (false, verified(evidence).is_ok()),
+            None => (false, false),
         };
+        let ((lifted, refuted), (_, none)) = (shown(&case.global), shown(&case.local));
         let heights = case.certified.as_ref().ok().and_then(|c| match &c.decision.certificate {
             Certificate::Heights(heights) => Some(heights),
             _ => None,
         });
         // Positive duals are those of some weights: the lift has them; without a lift no weights do, by the exact method.
         let has_duals = heights.is_some_and(|h| duals_are_the_lift(&case.surface, h) == Some(true));
-        let none = matches!(&case.local, Some(Err(evidence)) if verified(evidence).is_ok());
         duals.ask(match (has_duals, none, lifted, refuted) {
             (true, false, true, false) | (false, true, false, true) => None,
             _ => told("positive duals without a weighted Delaunay triangulation, or the reverse"),

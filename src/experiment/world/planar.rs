@@ -40,7 +40,7 @@ fn draw(case: usize, largest: usize, stream: &mut Stream) -> Option<Specimen> {
         let nested = if twist == 0.0 { 1 + n % 6 } else { (n / 3).max(2) - 1 };
         source("schonhardt", &[("twist", twist.to_string()), ("nested", whole(nested)), ("ratio", ratio.to_string())])
     };
-    let side = |n: usize| whole(((n as f64).sqrt() as usize).clamp(2, 12) - 1);
+    let side = |n: usize| whole(((n as f64).sqrt() as usize).clamp(3, 12) - 1);
     let grid = |id: &str, more: &[(&str, String)]| {
         let sides = [("nx", side(n)), ("ny", side(n)), ("diagonals", "random".to_string())];
         source(id, &[&sides[..], more].concat())
