@@ -248,11 +248,12 @@ fn every_kind_of_evidence_has_a_sentence_of_its_own_and_every_witness_a_picture(
 fn the_sample_has_every_kind_of_statement() {
     let statements: Vec<Statement> =
         sample::witnesses().into_iter().map(|w| w.1).chain(sample::certificates()).collect();
+    let statements = [statements, sample::triangulations().into_iter().map(|e| e.statement).collect()].concat();
     let found: BTreeSet<&str> = statements.iter().map(kind).collect();
     assert_eq!(found.len(), KINDS, "a kind of evidence is missing in the sample");
 }
 
-const KINDS: usize = 30;
+const KINDS: usize = 35;
 
 /// The match makes a new kind of statement an error here, so that it is given a sentence, a picture and a sample.
 fn kind(statement: &Statement) -> &'static str {
@@ -279,6 +280,10 @@ fn kind(statement: &Statement) -> &'static str {
         Statement::MassShare { .. } => "MassShare",
         Statement::Changed { .. } => "Changed",
         Statement::BelowCheeger { .. } => "BelowCheeger",
+        Statement::Lift { .. } => "Lift",
+        Statement::Equilibrium { .. } => "Equilibrium",
+        Statement::Motion { .. } => "Motion",
+        Statement::NoLift { .. } => "NoLift",
         Statement::Scan { .. } => "Scan",
         Statement::SumOfSquares => "SumOfSquares",
         Statement::ShiftedFactor { .. } => "ShiftedFactor",
@@ -289,6 +294,26 @@ fn kind(statement: &Statement) -> &'static str {
         Statement::Solved { .. } => "Solved",
         Statement::Compared { .. } => "Compared",
     }
+}
+
+#[test]
+fn every_statement_about_a_triangulation_has_its_sentence_and_its_pictures() {
+    let marks = [("Lift", "dual"), ("Equilibrium", "f5"), ("Motion", "arrow"), ("NoLift", "f5")];
+    let mut sentences = BTreeSet::new();
+    for (evidence, (name, mark)) in sample::triangulations().iter().zip(marks) {
+        assert_eq!(kind(&evidence.statement), name);
+        sentences.insert(report::statement(evidence));
+        let figures = report::figures(evidence);
+        figures.iter().for_each(|f| drop(balanced(&f.svg)));
+        assert_eq!(figures.len(), if name == "Lift" { 2 } else { 1 }, "{name}");
+        assert!(figures[0].svg.contains(&format!("class=\"{mark}\"")), "{name}: {}", figures[0].svg);
+    }
+    assert_eq!(sentences.len(), 4);
+    assert!(report::figures(&lapjury::property::Evidence::bare(Statement::SumOfSquares)).is_empty());
+    let mut record = sample::rich();
+    record.claims[0].tests[0].evidence = sample::triangulations();
+    let page = report::html(&record, &report::Options::default(), &[]).unwrap();
+    assert!(page.contains("The lifted surface, convex.") && page.contains("class=\"arrow\""));
 }
 
 #[test]

@@ -23,6 +23,8 @@ catalogue! {
     cheeger_inequality,
     dual_faces,
     family_positivity,
+    orthogonal_duals,
+    pub no_free_lunch,
 }
 
 use crate::property::{Evidence, Level};

@@ -5,6 +5,7 @@
 //! Besides the constructions: [`shape`] holds the metric of a triangle, [`stiffness`] puts edge weights together to a
 //! matrix, [`mass`] the mass matrices that all constructions on triangles share, [`exact`] knows which operators are rational.
 
+pub mod equilibrium;
 pub mod exact;
 pub mod mass;
 mod on_triangles;
@@ -23,6 +24,8 @@ catalogue! {
     pub wachspress,
     pub three_point,
     pub tet_cotan,
+    pub orthogonal_dual,
+    optimal_positive,
 }
 
 use std::collections::BTreeMap;
@@ -348,6 +351,17 @@ pub enum BuildError {
         what: &'static str,
         /// What to do.
         remedy: &'static str,
+    },
+    /// No positive weights in equilibrium exist.
+    #[error(
+        "'{laplacian}' does not exist on this mesh: {}; flip edges until the triangulation is a weighted Delaunay one",
+        certificate.in_words()
+    )]
+    NoPositiveWeights {
+        /// The entry.
+        laplacian: &'static str,
+        /// The motion that shows it.
+        certificate: Box<equilibrium::Certificate>,
     },
     /// A weight or mass that came out NaN or infinite.
     #[error(

@@ -1,6 +1,7 @@
-//! The wall around the linear algebra: our own compressed rows over any scalar, and `faer` behind [`factor`].
+//! The wall around the linear algebra: our own compressed rows over any scalar, and `faer` behind [`factor`],
+//! `clarabel` behind [`program`].
 //!
-//! Nothing outside this module names a type of `faer`.
+//! Nothing outside this module names a type of either.
 
 pub mod backward;
 pub mod certified;
@@ -10,8 +11,10 @@ pub mod factor;
 pub mod full;
 mod influence;
 mod lanczos;
+pub mod program;
 pub mod rational;
 pub mod regular;
+pub mod simplex;
 pub mod spectrum;
 
 pub use csr::Csr;

@@ -5,6 +5,10 @@
 //! excerpt (that the excerpt was copied faithfully; a certificate that speaks of the whole matrix) is checked against the
 //! operator itself.
 
+mod fraction;
+
+pub use fraction::Fraction;
+
 use serde::{Deserialize, Serialize};
 
 /// A statement about an operator on a domain, with the part of both that it speaks of.
@@ -316,6 +320,39 @@ pub enum Statement {
         x: SparseVector,
         /// One side of the partition that attains the constant.
         side: Vec<usize>,
+    },
+    // ── statements about a planar triangulation alone, of any weights that it could have ──────────────────────────
+    /// The heights are strictly convex across every interior edge, and the weights (jump of the gradient over the length)
+    /// are positive and in equilibrium, `Σ_j ω_ij (x_i − x_j) = 0`, at interior vertices: SYM, LOC, LIN and POS are possible at
+    /// once. All positions and faces.
+    Lift {
+        /// The height of each vertex.
+        heights: Vec<(usize, Fraction)>,
+        /// The weight of each interior edge.
+        weights: Vec<([usize; 2], Fraction)>,
+    },
+    /// The weights of all edges with an interior end are positive and in equilibrium at interior vertices: SYM, LOC, LIN and
+    /// POS are possible at once. All positions and faces.
+    Equilibrium {
+        /// The weight of each of these edges.
+        weights: Vec<([usize; 2], Fraction)>,
+    },
+    /// The motion y leaves the boundary in place, and `g_ij = (y_i − y_j)·(x_i − x_j)` is non-negative on every edge with an
+    /// interior end and positive on one; since `Σ ω_ij g_ij = 0` in equilibrium, SYM, LOC, LIN and POS are impossible at once.
+    /// All positions and faces.
+    Motion {
+        /// The vertices that move, all of them interior.
+        motion: Vec<(usize, [Fraction; 2])>,
+        /// The rate `g_ij` of each edge with an interior end.
+        rates: Vec<([usize; 2], Fraction)>,
+    },
+    /// No heights lift each vertex named above the plane of the face named with it: with these multipliers, not negative and
+    /// not all zero, the conditions `h_v [abc] − h_a [vbc] − h_b [avc] − h_c [abv] > 0` add up to `0 > 0`. All positions and faces.
+    NoLift {
+        /// Whether each vertex is the one opposite in a face beside: then no heights are even locally convex.
+        beside: bool,
+        /// Face, vertex and multiplier.
+        multipliers: Vec<(usize, usize, Fraction)>,
     },
     // ── certificates ───────────────────────────────────────────────────────────────────────────────────────────────
     /// Every one of `checked` places was looked at and none violates the property; the worst is at `worst`.

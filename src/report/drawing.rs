@@ -57,6 +57,10 @@ pub enum Class {
     Vertex,
     /// A vertex at fault.
     Focus,
+    /// An edge of a dual graph.
+    Dual,
+    /// An arrow of a motion.
+    Arrow,
     /// A vertex with a value; [`STEPS`] steps from negative to positive, the middle one zero.
     Value(u8),
     /// A label.
@@ -100,6 +104,8 @@ impl Class {
             Class::Bad => of(None, Some(ORANGE), 3.0),
             Class::Good => of(None, Some(BLUE), 3.0),
             Class::Pair => Paint { dash: Some((5.0, 4.0)), ..of(None, Some(ORANGE), 2.2) },
+            Class::Dual => of(None, Some(BLUE), 1.4),
+            Class::Arrow => of(None, Some(ORANGE), 2.0),
             Class::Angle => of(None, Some(INK), 1.0),
             Class::Vertex => of(Some(LINE), None, 0.0),
             Class::Focus => of(Some(ORANGE), Some([255, 255, 255]), 1.2),
@@ -118,6 +124,8 @@ impl Class {
             Class::Bad => "bad".into(),
             Class::Good => "good".into(),
             Class::Pair => "pair".into(),
+            Class::Dual => "dual".into(),
+            Class::Arrow => "arrow".into(),
             Class::Angle => "angle".into(),
             Class::Vertex => "vertex".into(),
             Class::Focus => "focus".into(),

@@ -1,5 +1,6 @@
 //! What a witness points at in a picture: edges, vertices, stars, values.
 
+use crate::record::evidence::Fraction;
 use crate::record::{Evidence, Statement};
 
 /// The places that a picture shows.
@@ -19,6 +20,10 @@ pub struct Highlight {
     pub angles: Vec<(usize, usize, usize, f64)>,
     /// Values at vertices, coloured.
     pub values: Vec<(usize, f64)>,
+    /// Arrows at vertices, of any common scale.
+    pub arrows: Vec<(usize, [f64; 2])>,
+    /// Heights of a lift of the mesh: its gradients are the vertices of a dual graph.
+    pub lift: Vec<(usize, f64)>,
     /// What the colours of the values mean.
     pub legend: &'static str,
 }
@@ -71,6 +76,14 @@ impl Highlight {
                 vertices: vec![*at],
                 ..values(vec![(*source, 1.0), (*at, *value)], "where the heat was, and the temperature below zero")
             },
+            Statement::Motion { motion, .. } => {
+                let arrow = |(v, y): &(usize, [Fraction; 2])| (*v, [y[0].approximate(), y[1].approximate()]);
+                Highlight { arrows: motion.iter().map(arrow).collect(), ..none }
+            }
+            Statement::Lift { heights, .. } => {
+                Highlight { lift: heights.iter().map(|(v, h)| (*v, h.approximate())).collect(), ..none }
+            }
+            Statement::Equilibrium { .. } | Statement::NoLift { .. } => none,
             Statement::Scan { worst, .. } => match worst.as_slice() {
                 [i] => at(*i),
                 [i, j] => between(*i, *j),

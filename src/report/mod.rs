@@ -16,6 +16,7 @@ pub mod number;
 mod picture;
 pub mod plot;
 pub mod png;
+mod reciprocal;
 mod sentence;
 mod svg;
 pub mod taxonomy;
@@ -28,6 +29,7 @@ pub use atlas::smallest;
 pub use html::html;
 pub use junit::junit;
 pub use markdown::markdown;
+pub use reciprocal::{Figure, figures};
 pub use sentence::{sentence, statement};
 
 use crate::record::{Cell, Exhibit, Record};

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::drawing::{Class, Drawing, Mark, Point, SHADES, STEPS, Shape, step};
 use super::highlight::Highlight;
 use super::number::{degrees, number};
+use super::reciprocal;
 use super::view::View;
 use crate::record::Exhibit;
 
@@ -205,6 +206,9 @@ impl Artist<'_> {
             }
         }
         h.angles.iter().for_each(|&(v, a, b, angle)| self.angle(v, a, b, angle));
+        let exhibit = self.exhibit;
+        reciprocal::dual(exhibit, &h.lift).into_iter().for_each(|ends| self.segment(Class::Dual, ends, false));
+        reciprocal::arrows(exhibit, &h.arrows).into_iter().for_each(|ends| self.segment(Class::Arrow, ends, true));
         if !h.values.is_empty() {
             self.legend(self.largest());
         }
@@ -214,6 +218,27 @@ impl Artist<'_> {
             }
         }
         h.focus().into_iter().take(12).for_each(|v| self.label(v));
+    }
+
+    /// A segment between points of the mesh's plane, with or without a head at its end; left out where it leaves the paper.
+    fn segment(&mut self, class: Class, ends: [Point; 2], head: bool) {
+        let [tail, tip] = ends.map(|p| self.frame.place(p));
+        let (width, height) = (WIDTH, self.frame.height);
+        let on_paper = |p: Point| (0.0..=width).contains(&p[0]) && (0.0..=height).contains(&p[1]);
+        if !on_paper(tail) || !on_paper(tip) {
+            return;
+        }
+        self.mark(class, Shape::Chain(vec![tail, tip]));
+        let (dx, dy) = (tip[0] - tail[0], tip[1] - tail[1]);
+        let length = dx.hypot(dy);
+        if head && length > 3.0 {
+            let size = 7.0_f64.min(0.5 * length) / length;
+            let barb = |side: f64| [tip[0] - size * (dx + side * dy), tip[1] - size * (dy - side * dx)];
+            let barbs = [barb(0.5), tip, barb(-0.5)];
+            if barbs.into_iter().all(on_paper) {
+                self.mark(class, Shape::Chain(barbs.to_vec()));
+            }
+        }
     }
 
     /// An arc at a corner with its angle; only where the paper shows it true.

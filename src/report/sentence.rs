@@ -123,9 +123,36 @@ pub fn statement(evidence: &Evidence) -> String {
             number(*threshold)
         ),
         Statement::BelowCheeger { x, side } => format!(
-            "the partition into {} and the rest has the smallest constant λ_C, with the volume as printed, and a vector with {}              has a Rayleigh quotient below λ_C²/2",
+            "the partition into {} and the rest has the smallest constant λ_C, with the volume as printed, and a vector with {} has \
+             a Rayleigh quotient below λ_C²/2",
             tuple(side),
             components(x)
+        ),
+        Statement::Lift { heights, weights } => format!(
+            "{} heights are strictly convex across all {} interior edges: the jumps of the gradient are positive weights in \
+             equilibrium at every interior vertex",
+            count(heights.len()),
+            count(weights.len())
+        ),
+        Statement::Equilibrium { weights } => format!(
+            "the {} edges with an interior end have positive weights in equilibrium at every interior vertex",
+            count(weights.len())
+        ),
+        Statement::Motion { motion, rates } => format!(
+            "with the boundary held, a motion of {} interior vertices shortens none of the {} edges with an interior end and \
+             lengthens {}: no positive weights are in equilibrium",
+            count(motion.len()),
+            count(rates.len()),
+            count(rates.iter().filter(|r| r.1.approximate() > 0.0).count())
+        ),
+        Statement::NoLift { beside, multipliers } => format!(
+            "no heights {}: {} such conditions, with positive multipliers, add up to 0 > 0",
+            if *beside {
+                "are strictly convex across every interior edge"
+            } else {
+                "lift every vertex above the plane of every triangle that it is no corner of"
+            },
+            count(multipliers.len())
         ),
         Statement::Scan { checked, worst } => match worst.as_slice() {
             [] => format!("{} places were looked at and none violates the property", count(*checked)),

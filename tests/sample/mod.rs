@@ -525,3 +525,27 @@ pub fn large() -> Record {
     }
     record
 }
+
+/// A statement of each kind about a triangulation: the star of a vertex in a square, its numbers for show.
+pub fn triangulations() -> Vec<lapjury::property::Evidence> {
+    use lapjury::property::evidence::Fraction;
+    let number = |x: i64| Fraction::text(x.to_string());
+    let positions: Vec<(usize, [f64; 3])> = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0], [0.0, 0.0]]
+        .map(|[x, y]| [x, y, 0.0])
+        .into_iter()
+        .enumerate()
+        .collect();
+    let excerpt =
+        Excerpt { positions, faces: (0..4).map(|k| (k, vec![k, (k + 1) % 4, 4])).collect(), ..Excerpt::default() };
+    let spokes = |x: i64| (0..4).map(|k| ([k, 4], number(x))).collect::<Vec<_>>();
+    let heights = (0..5).map(|v| (v, number(i64::from(v < 4)))).collect();
+    [
+        Statement::Lift { heights, weights: spokes(1) },
+        Statement::Equilibrium { weights: spokes(2) },
+        Statement::Motion { motion: vec![(4, [number(1), number(-2)])], rates: spokes(3) },
+        Statement::NoLift { beside: true, multipliers: vec![(0, 2, number(1)), (1, 3, number(1))] },
+    ]
+    .into_iter()
+    .map(|statement| lapjury::property::Evidence::new(statement, excerpt.clone()))
+    .collect()
+}

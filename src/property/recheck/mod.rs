@@ -26,6 +26,7 @@ mod classes;
 mod dense;
 mod dirichlet;
 mod energy;
+mod equilibrium;
 mod excerpt;
 mod leeway;
 mod mass;

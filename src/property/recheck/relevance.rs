@@ -60,6 +60,10 @@ fn describe(statement: &Statement) -> (&'static str, bool, &'static [&'static st
         Statement::MassShare { .. } => ("mass-share", true, &["MASS"]),
         Statement::Changed { .. } => ("changed", true, RELATIONS),
         Statement::BelowCheeger { .. } => ("below-cheeger", true, &[]),
+        Statement::Lift { .. } => ("lift", true, &[]),
+        Statement::Equilibrium { .. } => ("equilibrium", true, &[]),
+        Statement::Motion { .. } => ("motion", true, &[]),
+        Statement::NoLift { .. } => ("no-lift", true, &[]),
         Statement::Scan { .. } => (
             "scan",
             false,

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use super::excerpt::{Material, Rows};
 use super::terms::{Terms, U};
 use super::{
-    Answer, Rechecked, Refusal, accuracy, check_threshold, cheeger, dirichlet, energy, mass, moment, relevance, weight,
+    Answer, Rechecked, Refusal, accuracy, check_threshold, cheeger, dirichlet, energy, equilibrium, mass, moment, relevance, weight,
 };
 use crate::property::evidence::{SparseVector, Statement};
 use crate::scalar::Scalar;
@@ -60,6 +60,10 @@ pub(super) fn decide(statement: &Statement, m: &Material) -> Answer {
             changed(transformation, *before, *after, *threshold)
         }
         Statement::BelowCheeger { x, side } => cheeger::below(m, x, side),
+        Statement::Lift { heights, weights } => equilibrium::lift(m, heights, weights),
+        Statement::Equilibrium { weights } => equilibrium::weights(m, weights),
+        Statement::Motion { motion, rates } => equilibrium::motion(m, motion, rates),
+        Statement::NoLift { beside, multipliers } => equilibrium::no_lift(m, *beside, multipliers),
         certificate => Ok(Rechecked::Open(format!("'{}' is no witness", relevance::kind(certificate)))),
     }
 }

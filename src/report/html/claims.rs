@@ -2,8 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use maud::{Markup, html};
+use maud::{Markup, PreEscaped, html};
 
+use super::super::figures;
 use super::super::number::count;
 use super::{Page, replay, scroll};
 use crate::record::{ClaimLine, ClaimOutcome, TestLine};
@@ -56,7 +57,19 @@ fn claim(page: &Page, c: &ClaimLine) -> Markup {
                         tbody { @for t in &c.tests { (test(t)) } }
                     }
                 }))
+                (pictures(c))
                 @for command in commands { (replay(command)) }
+            }
+        }
+    }
+}
+
+/// The pictures of what the tests of a claim show.
+fn pictures(c: &ClaimLine) -> Markup {
+    html! {
+        @for evidence in c.tests.iter().flat_map(|t| &t.evidence) {
+            @for drawn in figures(evidence) {
+                figure { (PreEscaped(drawn.svg)) figcaption { (drawn.caption) "." } }
             }
         }
     }

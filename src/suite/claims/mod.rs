@@ -72,6 +72,7 @@ pub static BUILT_IN: &[(&str, &str)] = &[
     ("graphs", include_str!("../../../suites/claims/graphs.toml")),
     ("discrete", include_str!("../../../suites/claims/discrete.toml")),
     ("coordinates", include_str!("../../../suites/claims/coordinates.toml")),
+    ("no_free_lunch", include_str!("../../../suites/claims/no_free_lunch.toml")),
 ];
 
 /// Every claim that comes with the program, in the order of the files.
