@@ -68,7 +68,9 @@ fn over_every_small_triangulation_both_ways_come_to_the_same() {
     let (choices, mut counts) = (choices(), BTreeMap::new());
     // Six points take an optimised build a few seconds.
     for t in world(if cfg!(debug_assertions) { 5 } else { 6 }) {
-        compare(&t.surface().into(), &choices, &mut counts);
+        // Most of the world has six points: three operators of different kinds are enough there.
+        let some = if t.points().len() > 5 { &choices[..3] } else { &choices[..] };
+        compare(&t.surface().into(), some, &mut counts);
     }
     for (id, count) in &counts {
         // Where signs are rounded (p = 4, p = −2) a weight that is exactly zero may come out as a last bit.

@@ -5,6 +5,7 @@ use maud::{Markup, PreEscaped, html};
 use super::super::atlas::cases;
 use super::super::number::count;
 use super::super::{csv, draw, sentence, svg};
+use super::exhibits::capitalised;
 use super::{Page, scroll};
 use crate::record::{AtlasFound, AtlasLine};
 
@@ -53,7 +54,7 @@ fn plate(page: &Page, line: &AtlasLine, found: &AtlasFound, left: &mut usize) ->
             figcaption {
                 a.self href={ "#" (id) } { b { (line.laplacian) " fails " (line.property) } }
                 ": " (cases(line)) ". "
-                span title=(found.cell.recipe) { (sentence(&found.cell.verdict)) "; recheck " (csv::recheck(&found.cell.recheck)) "." }
+                span title=(found.cell.recipe) { (capitalised(&sentence(&found.cell.verdict))) "; recheck " (csv::recheck(&found.cell.recheck)) "." }
             }
         }
     }

@@ -110,7 +110,7 @@ fn mesh(exhibit: &Exhibit, left: &mut usize) -> Markup {
 }
 
 /// With a capital letter at its beginning, where it begins with a word and not with a formula.
-fn capitalised(sentence: &str) -> String {
+pub(super) fn capitalised(sentence: &str) -> String {
     let mut chars = sentence.chars();
     match (chars.next(), sentence.chars().nth(1)) {
         (Some(first), Some(second)) if second.is_ascii_lowercase() => first.to_uppercase().chain(chars).collect(),
