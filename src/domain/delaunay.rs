@@ -154,12 +154,19 @@ fn quotient(corner: [[f64; 3]; 3]) -> Option<(Rational, Rational)> {
     (a.cmp_zero() != Ordering::Equal).then(|| (dot(&u, &v), a))
 }
 
-/// The floating-point answer where its error bound `Σ 8u/sin²θ = Σ 8u (1 + cot²θ)` decides, away from over- and underflow.
+/// The floating-point answer where its error bound decides.
 fn filtered(corners: &[[[f64; 3]; 3]]) -> Option<Ordering> {
-    let (mut sum, mut bound) = (0.0, 0.0);
-    for corner in corners {
+    clear_sign(corners.iter().map(|corner| {
         let [apex, p, q] = corner.map(Vec3::from);
-        let cot = geometry::cotangent(apex, p, q);
+        geometry::cotangent(apex, p, q)
+    }))
+}
+
+/// The sign of a sum of cotangents that [`geometry::cotangent`] computed, where their error bound
+/// `Σ 8u/sin²θ = Σ 8u (1 + cot²θ)` decides it, away from over- and underflow.
+pub fn clear_sign(cotangents: impl Iterator<Item = f64>) -> Option<Ordering> {
+    let (mut sum, mut bound) = (0.0, 0.0);
+    for cot in cotangents {
         sum += cot;
         // Four times the bound of `cotangent`: the slack covers the rounding of this sum and of the bound itself.
         bound += 16.0 * f64::EPSILON * (1.0 + cot * cot);

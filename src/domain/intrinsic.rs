@@ -116,21 +116,21 @@ impl<'a> IntrinsicTriangulation<'a> {
         let topology = self.surface.topology();
         let mut rings = vec![[NONE; 3]; self.surface.faces().len()];
         for (e, &[a, b]) in topology.edges().iter().enumerate() {
-            let sides = || topology.sides(e).iter().filter(|side| keep(side.face));
+            let sides = || topology.sides(e).iter().filter(|side| keep(side.face()));
             if sides().count() > 2 {
                 return Err(IntrinsicError::NonManifold { a, b, faces: sides().count() });
             }
             for side in sides() {
-                let corners = self.surface.faces()[side.face].len();
+                let corners = self.surface.faces()[side.face()].len();
                 if corners != 3 {
-                    return Err(IntrinsicError::NotATriangle { face: side.face, corners });
+                    return Err(IntrinsicError::NotATriangle { face: side.face(), corners });
                 }
-                let h = 2 * e + usize::from(!side.forward);
+                let h = 2 * e + usize::from(!side.forward());
                 if self.origin[h] != NONE {
                     return Err(IntrinsicError::NotOrientable { a, b });
                 }
-                self.origin[h] = if side.forward { a } else { b };
-                rings[side.face][side.corner] = h;
+                self.origin[h] = if side.forward() { a } else { b };
+                rings[side.face()][side.corner()] = h;
             }
         }
         rings.retain(|ring| ring[0] != NONE);

@@ -140,14 +140,14 @@ fn build(domain: &Domain, settings: &Settings) -> Result<Operator, BuildError> {
 
 /// `½ Σ cot` over the angles opposite an edge.
 fn weight<S: Scalar>(triangles: &Triangles<S>, edge: usize) -> S {
-    triangles.beside(edge).fold(S::zero(), |sum, flank| {
-        let [_, _, apex] = flank.corners;
-        sum + S::half() * flank.shape.cotangents[apex].clone()
-    })
+    triangles.cotangents_opposite(edge).fold(S::zero(), |sum, cotangent| sum + S::half() * cotangent.clone())
 }
 
 /// The exact sign of the weight.
 pub(super) fn sign(triangles: &Triangles, edge: usize) -> Ordering {
+    if let Some(sign) = delaunay::clear_sign(triangles.cotangents_opposite(edge).copied()) {
+        return sign;
+    }
     let surface = triangles.surface();
     let [i, j] = surface.topology().edges()[edge].map(|v| surface.positions()[v]);
     let apexes: Vec<_> = triangles.beside(edge).map(|flank| surface.positions()[flank.opposite]).collect();

@@ -7,6 +7,7 @@ pub mod certified;
 pub mod csr;
 pub mod exact;
 pub mod factor;
+pub(crate) mod parallel;
 pub mod rational;
 
 pub use csr::Csr;

@@ -81,10 +81,8 @@ fn boundary_neighbours(surface: &Surface, i: usize) -> Option<[usize; 2]> {
         edge.is_some_and(|e| surface.topology().is_boundary_edge(e))
     };
     let (mut before, mut after) = (None, None);
-    for &(face, corner) in surface.topology().star(i) {
-        let corners = &surface.faces()[face];
-        let (next, previous) =
-            (corners[(corner + 1) % corners.len()], corners[(corner + corners.len() - 1) % corners.len()]);
+    for corner in surface.topology().star(i) {
+        let [next, previous] = corner.neighbours(surface.faces());
         if on_boundary(next) {
             after = Some(next);
         }

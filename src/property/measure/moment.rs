@@ -68,9 +68,8 @@ pub(crate) fn is_proper_star(surface: &Surface, vertex: usize, boundary_edges: u
     let topology = surface.topology();
     let star = topology.star(vertex);
     let mut edges = Vec::new();
-    for &(face, corner) in star {
-        let corners = &surface.faces()[face];
-        for other in [corners[(corner + 1) % corners.len()], corners[(corner + corners.len() - 1) % corners.len()]] {
+    for corner in star {
+        for other in corner.neighbours(surface.faces()) {
             edges.extend(topology.edge_between(vertex, other));
         }
     }
@@ -80,7 +79,7 @@ pub(crate) fn is_proper_star(surface: &Surface, vertex: usize, boundary_edges: u
     !star.is_empty()
         && with(1) == boundary_edges
         && with(1) + with(2) == edges.len()
-        && star.iter().all(|&(face, _)| proper_triangle(surface, face).is_some())
+        && star.iter().all(|c| proper_triangle(surface, c.face()).is_some())
 }
 
 /// Whether the star of a vertex lies unfolded in a plane, decided exactly: all its vertices are coplanar, and its faces have
@@ -88,15 +87,15 @@ pub(crate) fn is_proper_star(surface: &Surface, vertex: usize, boundary_edges: u
 pub(crate) fn is_flat_star(surface: &Surface, vertex: usize) -> bool {
     let star = surface.topology().star(vertex);
     let at = |v: usize| surface.positions()[v];
-    let Some([a, b, c]) = star.first().and_then(|&(face, _)| proper_triangle(surface, face)) else { return false };
+    let Some([a, b, c]) = star.first().and_then(|c| proper_triangle(surface, c.face())) else { return false };
     let coplanar = |v: usize| orient3d(at(a), at(b), at(c), at(v)).is_eq();
-    if !star.iter().all(|&(face, _)| surface.faces()[face].iter().all(|&v| coplanar(v))) {
+    if !star.iter().all(|c| surface.faces()[c.face()].iter().all(|&v| coplanar(v))) {
         return false;
     }
     let project = |axes: [usize; 2], v: usize| axes.map(|k| at(v)[k]);
     let faithful = |axes: &[usize; 2]| orient2d(project(*axes, a), project(*axes, b), project(*axes, c)).is_ne();
     let Some(axes) = [[0, 1], [1, 2], [2, 0]].into_iter().find(faithful) else { return false };
-    let turns: Vec<_> = star.iter().flat_map(|&(face, _)| turns(surface, face, axes)).collect();
+    let turns: Vec<_> = star.iter().flat_map(|c| turns(surface, c.face(), axes)).collect();
     !(turns.iter().any(|t| t.is_gt()) && turns.iter().any(|t| t.is_lt()))
 }
 

@@ -232,7 +232,7 @@ fn witness(trial: &Trial, number: Option<usize>, w: &Weight, zero: bool) -> Evid
     let mut excerpt = excerpt::of_rows(trial, [w.i]).with_positions(trial, [w.i, w.j]);
     let mut opposite = Vec::new();
     if let (Domain::Surface(surface), Some(edge)) = (trial.domain, number) {
-        let faces: Vec<usize> = surface.topology().sides(edge).iter().map(|s| s.face).collect();
+        let faces: Vec<usize> = surface.topology().sides(edge).iter().map(|s| s.face()).collect();
         excerpt = excerpt.with_faces(trial, &faces).with_corners(trial);
         let angle = |v: usize| geometry::angle(surface.point(v), surface.point(w.i), surface.point(w.j)).to_degrees();
         opposite = surface.opposite(edge).into_iter().map(|(_, v)| Corner { vertex: v, angle_deg: angle(v) }).collect();
