@@ -1,6 +1,6 @@
 //! Sparse matrices in compressed rows, over any [`Scalar`].
 
-use super::parallel::BLOCK;
+use super::parallel::{self, BLOCK};
 use crate::scalar::Scalar;
 
 /// A sparse matrix in compressed rows; column indices ascend within each row and occur once.
@@ -230,7 +230,7 @@ fn write_rows<S: Scalar>(
 impl Csr<f64> {
     /// The row scales `s_i = Σ_k |A_ik|`.
     pub fn row_scales(&self) -> Vec<f64> {
-        (0..self.rows).map(|i| self.row(i).map(|(_, v)| v.abs()).sum()).collect()
+        parallel::collect(self.rows, |i| self.row_slices(i).1.iter().map(|v| v.abs()).sum())
     }
 
     /// The symmetric part `½(A + Aᵀ)`.

@@ -107,7 +107,7 @@ impl<'a> Trial<'a> {
     /// Whether every entry of both matrices is a finite number: what every property but FIN takes for granted.
     pub fn is_finite(&self) -> bool {
         *self.finite.get_or_init(|| {
-            let finite = |m: &Csr| m.entries().all(|(_, _, v)| v.is_finite());
+            let finite = |m: &Csr| m.values().iter().all(|v| v.is_finite());
             finite(self.operator.stiffness()) && self.operator.mass().is_none_or(|m| finite(m.matrix()))
         })
     }

@@ -6,6 +6,7 @@
 //! relative to the row scale s_i.
 
 use super::tolerance::{Sign, Threshold};
+use crate::linalg::parallel;
 use crate::property::Trial;
 
 /// What rounding explains, row by row.
@@ -23,13 +24,13 @@ impl Rounding {
     pub fn of(trial: &Trial) -> Self {
         let (matrix, at) = (trial.operator.stiffness(), trial.scales().geometry());
         let near = |i: usize| matrix.row(i).map(|(j, _)| j).chain([i]);
-        let rows = 0..matrix.rows();
-        let quality: Vec<f64> = rows.clone().map(|i| near(i).map(|j| at.vertices[j]).fold(1.0, f64::max)).collect();
+        let n = matrix.rows();
+        let quality: Vec<f64> = parallel::collect(n, |i| near(i).map(|j| at.vertices[j]).fold(1.0, f64::max));
         Rounding {
-            rows: rows.clone().map(|i| Threshold::over(1.0, matrix.row(i).len(), quality[i])).collect(),
+            rows: parallel::collect(n, |i| Threshold::over(1.0, matrix.row(i).len(), quality[i])),
             scales: trial.scales().rows.clone(),
-            shortest: rows.clone().map(|i| near(i).map(|j| at.shortest[j]).fold(f64::INFINITY, f64::min)).collect(),
-            degenerate: rows.map(|i| near(i).any(|j| at.degenerate[j])).collect(),
+            shortest: parallel::collect(n, |i| near(i).map(|j| at.shortest[j]).fold(f64::INFINITY, f64::min)),
+            degenerate: parallel::collect(n, |i| near(i).any(|j| at.degenerate[j])),
             literal: trial.has_literal_signs(),
             quality,
         }

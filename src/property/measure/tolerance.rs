@@ -62,7 +62,7 @@
 use super::condition::Condition;
 use super::stencil::Stencil;
 use crate::domain::{Domain, DomainKind};
-use crate::linalg::Csr;
+use crate::linalg::{Csr, parallel};
 pub use crate::linalg::backward::UNIT_ROUNDOFF;
 
 /// No residual above this share of its scale is ever called explained: half of the digits would be lost.
@@ -198,7 +198,7 @@ impl Scales {
         let condition = Condition::of(domain);
         let local = domain.kind() != DomainKind::Points;
         let leaves = |i| local && stencil.far_entries(stiffness, i).next().is_some();
-        let leaves_stencil: Vec<bool> = (0..stiffness.rows()).map(leaves).collect();
+        let leaves_stencil: Vec<bool> = parallel::collect(stiffness.rows(), leaves);
         let worst = condition.worst();
         let own = condition.vertices.iter().zip(&leaves_stencil);
         let measured = own.map(|(&q, &leaves)| if leaves { worst } else { q }).collect();
