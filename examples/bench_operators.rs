@@ -5,7 +5,7 @@
 //! cargo run --release --example bench_operators -- MESH TASK [REPEATS]
 //! ```
 //! reads the mesh, then for each line of the input (or `REPEATS` times) runs the task once and prints one line of JSON:
-//! `seconds`, and where the task has parts `parts`, the seconds of each. The task `memory:TASK` runs it once and prints
+//! `seconds`, `cpu_seconds` of all threads (with what the task cleans up after it), and where the task has parts `parts`, the seconds of each. The task `memory:TASK` runs it once and prints
 //! `peak_bytes`, by how much the resident memory of the process rose above what it was with the mesh in it (Linux only).
 //!
 //! | task | what is timed |
@@ -29,21 +29,8 @@ use lapjury::{Domain, Mass, MassKind, Operator, Surface, Trial, laplacian, prope
 type Outcome<T> = Result<T, Box<dyn Error>>;
 
 /// The properties that read matrix and mesh once, without solving anything.
-const STRUCTURAL: [&str; 13] = [
-    "FIN",
-    "LOC",
-    "SYM",
-    "NULL",
-    "POS",
-    "POS0",
-    "POS-boundary",
-    "LIN",
-    "ENERGY",
-    "FLUX",
-    "MVP",
-    "MASS",
-    "MAX-local",
-];
+const STRUCTURAL: [&str; 13] =
+    ["FIN", "LOC", "SYM", "NULL", "POS", "POS0", "POS-boundary", "LIN", "ENERGY", "FLUX", "MVP", "MASS", "MAX-local"];
 
 /// The seconds that something took, and those of its parts.
 type Timed = (f64, Vec<(&'static str, f64)>);
@@ -123,6 +110,13 @@ impl Task {
     }
 }
 
+/// The seconds that all threads of the process together have spent on a processor; zero where the system tells none.
+fn cpu_seconds() -> f64 {
+    let tasks = std::fs::read_dir("/proc/self/task").into_iter().flatten().flatten();
+    let spent = tasks.filter_map(|t| std::fs::read_to_string(t.path().join("schedstat")).ok());
+    spent.filter_map(|s| s.split_whitespace().next()?.parse::<f64>().ok()).sum::<f64>() * 1e-9
+}
+
 /// A field of the process's status in bytes; zero where the system tells none.
 fn status(field: &str) -> u64 {
     let text = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
@@ -151,9 +145,11 @@ fn main() -> Outcome<()> {
     let task = Task::prepare(name, domain)?;
     let mut out = std::io::stdout().lock();
     let mut report = || -> Outcome<()> {
+        let before = cpu_seconds();
         let (seconds, parts) = task.run()?;
+        let cpu_seconds = cpu_seconds() - before;
         let parts: serde_json::Map<_, _> = parts.into_iter().map(|(id, s)| (id.to_string(), s.into())).collect();
-        writeln!(out, "{}", serde_json::json!({ "seconds": seconds, "parts": parts }))?;
+        writeln!(out, "{}", serde_json::json!({ "seconds": seconds, "cpu_seconds": cpu_seconds, "parts": parts }))?;
         Ok(out.flush()?)
     };
     match rest.first() {

@@ -99,7 +99,10 @@ pub enum DomainError {
         vertices: usize,
     },
     /// More corners than the connectivity can number.
-    #[error("the faces have {corners} corners in all; at most {} can be numbered, split the mesh", topology::Topology::MOST_CORNERS)]
+    #[error(
+        "the faces have {corners} corners in all; at most {} can be numbered, split the mesh",
+        topology::Topology::MOST_CORNERS
+    )]
     TooManyCorners {
         /// How many there are.
         corners: usize,

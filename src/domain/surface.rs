@@ -1,5 +1,7 @@
 //! Triangle and polygon meshes in the plane or in space.
 
+use std::sync::OnceLock;
+
 use super::geometry::{self, Vec3};
 use super::topology::{self, Orientation, Topology};
 use super::{DomainError, Faces, check_coordinates, check_corners};
@@ -21,6 +23,8 @@ pub struct Surface {
     topology: Topology,
     orientation: Orientation,
     notices: Vec<String>,
+    /// Found when first asked for.
+    plane: OnceLock<Option<[usize; 2]>>,
 }
 
 impl Surface {
@@ -63,7 +67,7 @@ impl Surface {
         if !orientation.orientable {
             notices.push("some component cannot be oriented; its faces are left as they came".into());
         }
-        Ok(Surface { positions, faces, topology, orientation, notices })
+        Ok(Surface { positions, faces, topology, orientation, notices, plane: OnceLock::new() })
     }
 
     /// A triangle mesh; see [`Surface::new`].
@@ -92,7 +96,7 @@ impl Surface {
             return Err(DomainError::WrongLength { what: "positions", found, expected, of: "vertices" });
         }
         check_coordinates(&positions)?;
-        Ok(Surface { positions, ..self.clone() })
+        Ok(Surface { positions, plane: OnceLock::new(), ..self.clone() })
     }
 
     /// Adds a notice about where the surface came from (welded vertices, dropped records, …).
@@ -152,6 +156,10 @@ impl Surface {
     ///
     /// With these axes the mesh is flat and unfolded, so that coordinates are linear functions in the sense of LIN.
     pub fn plane(&self) -> Option<[usize; 2]> {
+        *self.plane.get_or_init(|| self.find_plane())
+    }
+
+    fn find_plane(&self) -> Option<[usize; 2]> {
         let constant = |axis: usize| self.positions.windows(2).all(|w| w[0][axis] == w[1][axis]);
         let normal = [2, 0, 1].into_iter().find(|&axis| constant(axis))?;
         let axes = [(normal + 1) % 3, (normal + 2) % 3];

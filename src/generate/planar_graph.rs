@@ -4,9 +4,9 @@ use super::random_delaunay::{POINTS, square};
 use super::shape::scatter;
 use super::shape::verge::{BOUNDARY, bounded, shuffled};
 use super::{GenerateError, Generator, Make, Stream};
+use crate::domain::Domain;
 use crate::domain::faces::Faces;
 use crate::domain::topology::Topology;
-use crate::domain::Domain;
 use crate::parameter::{Parameter, Range, Settings};
 
 /// The catalogue entry.

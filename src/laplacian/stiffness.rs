@@ -13,51 +13,50 @@ pub type EdgeWeights<S> = ([usize; 2], [S; 2]);
 /// The diagonal is summed over the finished weights of the row, columns ascending: a row sum is zero up to the rounding of
 /// that one sum, however the weights came about. Over the rationals it is zero. Cost: O(n + E log valence).
 pub fn from_weights<S: Scalar>(vertices: usize, weights: &[EdgeWeights<S>]) -> Csr<S> {
-    let ends = |e: usize| weights[e].0;
-    let directed = Directed::new(vertices, weights.len(), ends, |e| ends(e)[0] != ends(e)[1]);
-    // Which edges a row has by its columns, those of a column in the order given.
-    let sorted = directed.sorted(ends);
-    let other = |i: usize, e: usize| ends(e)[0] + ends(e)[1] - i;
-    let columns = |i: usize| sorted.of(i).chunk_by(move |&e, &f| other(i, e as usize) == other(i, f as usize));
+    // At each vertex the other end and the number of each edge, by that end; those of a column in the order given.
+    let mut at = Lists::gather(vertices, weights.len(), |e, add| {
+        let [a, b] = weights[e].0;
+        if a != b {
+            add(a, (b, e));
+            add(b, (a, e));
+        }
+    });
+    at.sort();
+    let columns = |i: usize| at.of(i).chunk_by(|a, b| a.0 == b.0);
     let lengths: Vec<usize> = (0..vertices).map(|i| 1 + columns(i).count()).collect();
     Csr::from_rows(vertices, &lengths, |i, indices, values| {
         let entries = columns(i).map(|parallel| {
             // Subtracted from zero rather than negated: a weight of zero is stored as +0.
-            let entry = |&e: &u32| {
-                let ([start, _], [forth, back]) = &weights[e as usize];
+            let entry = |&(_, e): &(usize, usize)| {
+                let ([start, _], [forth, back]) = &weights[e];
                 S::zero() - if *start == i { forth } else { back }.clone()
             };
             let sum = parallel[1..].iter().fold(entry(&parallel[0]), |sum, e| sum + entry(e));
-            (other(i, parallel[0] as usize), sum)
+            (parallel[0].0, sum)
         });
         write_row(i, entries, indices, values);
     })
 }
 
 /// The same for edges `[smaller, larger]` in lexicographic order, none twice, and the weights of each: what
-/// [`from_weights`] makes of them, bit for bit, without sorting. Rows are written in parallel; beside the matrix it takes 4 bytes an
-/// edge and 8 a vertex.
+/// [`from_weights`] makes of them, bit for bit, without sorting. Rows are written in parallel; beside the matrix it takes 8 bytes an
+/// edge and 24 a vertex.
 pub(super) fn from_edges<S: Scalar>(vertices: usize, edges: &[[usize; 2]], weights: &[[S; 2]]) -> Csr<S> {
     // The edges that end at each vertex, ascending: their starts are the columns before the diagonal.
-    let lower = Directed::downward(vertices, edges);
+    let lower = Lists::gather(vertices, edges.len(), |e, add| add(edges[e][1], e));
     let mut first = vec![0; vertices + 1];
     edges.iter().for_each(|e| first[e[0] + 1] += 1);
     (0..vertices).for_each(|v| first[v + 1] += first[v]);
     let lengths: Vec<usize> = (0..vertices).map(|i| 1 + lower.of(i).len() + first[i + 1] - first[i]).collect();
     Csr::from_rows(vertices, &lengths, |i, indices, values| {
-        let below = lower.of(i).iter().map(|&e| (edges[e as usize][0], S::zero() - weights[e as usize][1].clone()));
+        let below = lower.of(i).iter().map(|&e| (edges[e][0], S::zero() - weights[e][1].clone()));
         let above = (first[i]..first[i + 1]).map(|e| (edges[e][1], S::zero() - weights[e][0].clone()));
         write_row(i, below.chain(above), indices, values);
     })
 }
 
 /// Writes the entries of a row, columns ascending, and the diagonal between them, which is summed over them.
-fn write_row<S: Scalar>(
-    i: usize,
-    entries: impl Iterator<Item = (usize, S)>,
-    indices: &mut [usize],
-    values: &mut [S],
-) {
+fn write_row<S: Scalar>(i: usize, entries: impl Iterator<Item = (usize, S)>, indices: &mut [usize], values: &mut [S]) {
     let (mut sum, mut at, mut diagonal) = (S::zero(), 0, 0);
     for (j, value) in entries {
         if j < i {
@@ -73,55 +72,38 @@ fn write_row<S: Scalar>(
     (indices[diagonal], values[diagonal]) = (i, sum);
 }
 
-/// For each vertex some of the edges at it.
-struct Directed {
+/// A list for each vertex, all in one allocation.
+struct Lists<T> {
     offsets: Vec<usize>,
-    edges: Vec<u32>,
+    items: Vec<T>,
 }
 
-impl Directed {
-    /// The edges at each of their ends that are `wanted`, in their order.
-    fn new(
-        vertices: usize,
-        count: usize,
-        ends: impl Fn(usize) -> [usize; 2],
-        wanted: impl Fn(usize) -> bool,
-    ) -> Self {
-        Directed::gather(vertices, count, |e, add| if wanted(e) { ends(e).into_iter().for_each(add) })
-    }
-
-    /// The edges at their larger ends, in their order.
-    fn downward(vertices: usize, edges: &[[usize; 2]]) -> Self {
-        Directed::gather(vertices, edges.len(), |e, add| add(edges[e][1]))
-    }
-
-    /// Puts each edge down at the vertices that `at` names: a counting sort.
-    fn gather(vertices: usize, count: usize, at: impl Fn(usize, &mut dyn FnMut(usize))) -> Self {
+impl<T: Copy + Default + Ord> Lists<T> {
+    /// Puts down what `put` adds for each of `0..count` at the vertices that it names, in that order: a counting sort.
+    fn gather(vertices: usize, count: usize, put: impl Fn(usize, &mut dyn FnMut(usize, T))) -> Self {
         let mut offsets = vec![0; vertices + 2];
-        // Counted two places on, the offsets are where the next edge goes, and where each list begins in the end.
-        (0..count).for_each(|e| at(e, &mut |v| offsets[v + 2] += 1));
+        // Counted two places on, the offsets are where the next item goes, and where each list begins in the end.
+        (0..count).for_each(|e| put(e, &mut |v, _| offsets[v + 2] += 1));
         (0..=vertices).for_each(|v| offsets[v + 1] += offsets[v]);
-        let mut edges = vec![0; offsets[vertices + 1]];
+        let mut items = vec![T::default(); offsets[vertices + 1]];
         for e in 0..count {
-            at(e, &mut |v| {
-                edges[offsets[v + 1]] = e as u32;
+            put(e, &mut |v, item| {
+                items[offsets[v + 1]] = item;
                 offsets[v + 1] += 1;
             });
         }
-        Directed { offsets, edges }
+        Lists { offsets, items }
     }
 
-    /// Each list by the other end.
-    fn sorted(mut self, ends: impl Fn(usize) -> [usize; 2]) -> Self {
-        for (v, range) in self.offsets.windows(2).enumerate().take(self.offsets.len() - 2) {
-            let other = |&e: &u32| ends(e as usize)[0] + ends(e as usize)[1] - v;
-            self.edges[range[0]..range[1]].sort_by_key(other);
+    /// Sorts each list.
+    fn sort(&mut self) {
+        for v in 0..self.offsets.len() - 2 {
+            self.items[self.offsets[v]..self.offsets[v + 1]].sort_unstable();
         }
-        self
     }
 
-    fn of(&self, vertex: usize) -> &[u32] {
-        &self.edges[self.offsets[vertex]..self.offsets[vertex + 1]]
+    fn of(&self, vertex: usize) -> &[T] {
+        &self.items[self.offsets[vertex]..self.offsets[vertex + 1]]
     }
 }
 

@@ -37,6 +37,7 @@ fn check(trial: &Trial) -> Verdict {
         return verdict;
     }
     let (matrix, boundary, stencil) = (trial.operator.stiffness(), trial.domain.boundary(), trial.stencil());
+    // Computed before threads ask for them.
     trial.scales();
     let scan = Scan::over(matrix.rows(), |i, scan: &mut Scan<(usize, Fault)>| {
         if !boundary[i] && !stencil.neighbours(i).is_empty() {

@@ -5,7 +5,7 @@
 //! the strict predicate fail by an exact zero, and the verdict says so. Which pairs have a weight, and when a sign is clear,
 //! is told in [`weights`](super::measure::weights). Boundary edges have [POS-boundary](super::pos_boundary).
 
-use super::measure::weights::{Class, Weights, decide, strict};
+use super::measure::weights::{Class, Part, Weights, decide, strict};
 use super::{Property, Question, Trial, Verdict};
 
 /// The catalogue entry.
@@ -25,10 +25,10 @@ fn check(trial: &Trial) -> Verdict {
         return verdict;
     }
     let weights = Weights::of(trial);
-    if weights.interior.is_empty() {
+    if weights.no_interior() {
         return Verdict::not_applicable("there is no interior edge");
     }
     let failing = [Class::Violation, Class::Zero];
-    let verdict = decide(trial, &weights.interior, weights.literal, strict, ORDER, &failing);
+    let verdict = decide(&weights, Part::Interior, strict, ORDER, &failing);
     weights.notes().into_iter().fold(verdict, Verdict::with_note)
 }

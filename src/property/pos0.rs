@@ -4,7 +4,7 @@
 //! `ω_ij = −L_ij ≥ 0` on every interior edge: the weak form of [POS](super::pos). A weight that rounding cannot tell from
 //! zero counts among the `zeros`.
 
-use super::measure::weights::{Class, Weights, decide, weak};
+use super::measure::weights::{Class, Part, Weights, decide, weak};
 use super::{Property, Question, Trial, Verdict};
 
 /// The catalogue entry.
@@ -24,9 +24,9 @@ fn check(trial: &Trial) -> Verdict {
         return verdict;
     }
     let weights = Weights::of(trial);
-    if weights.interior.is_empty() {
+    if weights.no_interior() {
         return Verdict::not_applicable("there is no interior edge");
     }
-    let verdict = decide(trial, &weights.interior, weights.literal, weak, ORDER, &[Class::Violation]);
+    let verdict = decide(&weights, Part::Interior, weak, ORDER, &[Class::Violation]);
     weights.notes().into_iter().fold(verdict, Verdict::with_note)
 }

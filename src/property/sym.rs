@@ -68,6 +68,8 @@ pub(super) struct Pairs<'a> {
 impl<'a> Pairs<'a> {
     /// Of the operator on trial. Cost: O(nnz log(row length)).
     pub fn of(trial: &'a Trial) -> Self {
+        // Computed before threads ask for them.
+        trial.scales();
         let matrix = trial.operator.stiffness();
         let mirrored = |i: usize| matrix.row_slices(i).0.iter().all(|&j| j > i || matrix.get(j, i).is_some());
         let all = parallel::blocks(matrix.rows(), |mut rows| rows.all(mirrored)).into_iter().all(|block| block);

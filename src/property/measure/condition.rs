@@ -9,6 +9,7 @@
 
 use crate::domain::geometry::{self, Vec3};
 use crate::domain::{Domain, Surface, Volume};
+use crate::linalg::parallel;
 
 /// Beyond this an element is as good as degenerate in `f64`.
 const WORST: f64 = 1e18;
@@ -101,6 +102,8 @@ pub(crate) struct Triangles {
     pub opposite: Vec<f64>,
     /// At each vertex `σ = Σ ½ (cot θ_b + cot θ_c)`, the diagonal of the cotangent Laplacian.
     pub pull: Vec<f64>,
+    /// The area and the condition of each face; 0 and 1 for a degenerate one.
+    pub faces: Vec<(f64, f64)>,
 }
 
 impl Condition {
@@ -136,27 +139,63 @@ impl Condition {
     }
 }
 
+/// Gathered vertex by vertex over the faces around it, and edge by edge over those beside it, in face order.
 fn of_surface(surface: &Surface) -> Condition {
-    let (n, edges) = (surface.positions().len(), surface.topology().edges().len());
-    let mut condition = Condition::perfect(n);
-    let mut t = Triangles { edge_condition: vec![1.0; edges], opposite: vec![0.0; edges], pull: vec![0.0; n] };
-    for (face, corners) in surface.faces().iter().enumerate() {
-        let shape = Shape::of_face(surface, face);
-        let q = shape.map(|s| s.condition()).or_else(|| of_polygon(surface, face));
-        let side = |k: usize| (surface.positions()[corners[k]], surface.positions()[corners[(k + 1) % corners.len()]]);
-        let sides = (0..corners.len()).map(|k| distance(side(k).0, side(k).1));
-        condition.add(corners, q, sides.fold(f64::INFINITY, f64::min));
-        let (Some(shape), Some(q)) = (shape, q) else { continue };
-        for (corner, &v) in corners.iter().enumerate() {
-            t.pull[v] += shape.pull[corner];
-            let (b, c) = (corners[(corner + 1) % 3], corners[(corner + 2) % 3]);
-            if let Some(edge) = surface.topology().edge_between(b, c) {
-                t.opposite[edge] += shape.inverse_sine[corner].powi(2);
-                t.edge_condition[edge] = t.edge_condition[edge].max(q);
+    let topology = surface.topology();
+    let faces = parallel::collect(surface.faces().len(), |face| Element::of(surface, face));
+    let (n, edges) = (surface.positions().len(), topology.edges().len());
+    let at_vertex = |v: usize| topology.star(v).iter().map(|c| (&faces[c.face()], c.corner()));
+    let worst = |v: usize| at_vertex(v).filter_map(|(f, _)| f.condition).fold(1.0, f64::max);
+    let shortest = |v: usize| at_vertex(v).map(|(f, _)| f.shortest).fold(f64::INFINITY, f64::min);
+    let triangles = surface.is_triangulated().then(|| {
+        let opposite = |e: usize| {
+            let sides = topology.sides(e).iter().map(|s| (&faces[s.face()], (s.corner() + 2) % 3));
+            sides.filter(|(f, _)| f.condition.is_some())
+        };
+        let squares = |e: usize| opposite(e).fold(0.0, |sum, (f, corner)| sum + f.inverse_sine[corner].powi(2));
+        let pull = |v: usize| at_vertex(v).fold(0.0, |sum, (f, k)| f.condition.map_or(sum, |_| sum + f.pull[k]));
+        Triangles {
+            edge_condition: parallel::collect(edges, |e| {
+                opposite(e).filter_map(|(f, _)| f.condition).fold(1.0, f64::max)
+            }),
+            opposite: parallel::collect(edges, squares),
+            pull: parallel::collect(n, pull),
+            faces: parallel::collect(faces.len(), |f| (faces[f].area, faces[f].condition.unwrap_or(1.0))),
+        }
+    });
+    Condition {
+        vertices: parallel::collect(n, worst),
+        shortest: parallel::collect(n, shortest),
+        degenerate: parallel::collect(n, |v| at_vertex(v).any(|(f, _)| f.condition.is_none())),
+        triangles,
+    }
+}
+
+/// What the vertices and edges of a face gather from it; of a polygon with more corners only condition and shortest side.
+struct Element {
+    condition: Option<f64>,
+    shortest: f64,
+    area: f64,
+    inverse_sine: [f64; 3],
+    pull: [f64; 3],
+}
+
+impl Element {
+    fn of(surface: &Surface, face: usize) -> Self {
+        let corners = &surface.faces()[face];
+        let at = |k: usize| surface.positions()[corners[if k == corners.len() { 0 } else { k }]];
+        let shortest = (0..corners.len()).map(|k| distance(at(k), at(k + 1))).fold(f64::INFINITY, f64::min);
+        match Shape::of_face(surface, face) {
+            Some(Shape { inverse_sine, pull, area, .. }) => {
+                let condition = Some(inverse_sine.iter().copied().fold(1.0, f64::max));
+                Element { condition, shortest, area, inverse_sine, pull }
+            }
+            None => {
+                let condition = of_polygon(surface, face);
+                Element { condition, shortest, area: 0.0, inverse_sine: [0.0; 3], pull: [0.0; 3] }
             }
         }
     }
-    Condition { triangles: surface.is_triangulated().then_some(t), ..condition }
 }
 
 /// The condition of a face with more than three corners; `None` for a triangle or a polygon without area.

@@ -62,8 +62,8 @@
 use super::condition::Condition;
 use super::stencil::Stencil;
 use crate::domain::{Domain, DomainKind};
-use crate::linalg::{Csr, parallel};
 pub use crate::linalg::backward::UNIT_ROUNDOFF;
+use crate::linalg::{Csr, parallel};
 
 /// No residual above this share of its scale is ever called explained: half of the digits would be lost.
 pub const LARGEST_EXPLAINED: f64 = 1.0 / 1_048_576.0;
