@@ -125,7 +125,7 @@ def grid(n, curved):
 
     m, rng = int(n**0.5), np.random.default_rng(1)
     y, x = np.divmod(np.arange(m * m), m)
-    p = np.stack([x + 0.6 * (rng.random(m * m) - 0.5), y + 0.6 * (rng.random(m * m) - 0.5), np.zeros(m * m)], 1) / m
+    p = np.stack([x + 0.4 * (rng.random(m * m) - 0.5), y + 0.4 * (rng.random(m * m) - 0.5), np.zeros(m * m)], 1) / m
     if curved:
         p[:, 2] = 0.1 * np.sin(7 * p[:, 0]) * np.cos(5 * p[:, 1])
     j, i = np.divmod(np.arange((m - 1) ** 2), m - 1)

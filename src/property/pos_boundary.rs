@@ -5,8 +5,7 @@
 //! angle is obtuse, Delaunay or not. Interior edges with both ends on the boundary matter to no Dirichlet problem; they
 //! belong to [POS](super::pos) and are told apart in a note here.
 
-use super::measure::weights::{Class, Part, Weights, decide, strict, survey};
-use super::pos::ORDER;
+use super::measure::weights::Class;
 use super::{Property, Question, Trial, Verdict};
 use crate::domain::Domain;
 
@@ -29,12 +28,12 @@ fn check(trial: &Trial) -> Verdict {
             trial.domain.kind()
         ));
     }
-    let weights = Weights::of(trial);
-    if weights.no_boundary() {
+    let surveys = trial.surveys();
+    if surveys.boundary.tally.total == 0 {
         return Verdict::not_applicable("there is no boundary edge");
     }
-    let verdict = decide(&weights, Part::Boundary, strict, ORDER, &[Class::Violation, Class::Zero]);
-    let tally = survey(&weights, Part::Bridges, strict, ORDER).tally;
+    let verdict = surveys.boundary.decide(trial, &[Class::Violation, Class::Zero]);
+    let tally = surveys.bridges.tally;
     if tally.total == 0 {
         return verdict;
     }

@@ -3,6 +3,7 @@
 use std::sync::OnceLock;
 
 use super::measure::rounding::Rounding;
+use super::measure::weights::Surveys;
 use super::stencil::Stencil;
 use super::tolerance::Scales;
 use super::{Level, Verdict};
@@ -22,6 +23,7 @@ pub struct Trial<'a> {
     rounding: OnceLock<Rounding>,
     stencil: OnceLock<Stencil>,
     finite: OnceLock<bool>,
+    surveys: OnceLock<Surveys>,
 }
 
 /// Matrix and domain do not belong together.
@@ -61,7 +63,8 @@ impl<'a> Trial<'a> {
             return Err(SizeMismatch { rows, vertices, hint });
         }
         let (scales, rounding, stencil) = (OnceLock::new(), OnceLock::new(), OnceLock::new());
-        Ok(Trial { domain, operator, seed, scales, rounding, stencil, finite: OnceLock::new() })
+        let (finite, surveys) = (OnceLock::new(), OnceLock::new());
+        Ok(Trial { domain, operator, seed, scales, rounding, stencil, finite, surveys })
     }
 
     /// The scales that thresholds are relative to.
@@ -72,6 +75,11 @@ impl<'a> Trial<'a> {
     /// The thresholds of rows where their neighbours count.
     pub(crate) fn rounding(&self) -> &Rounding {
         self.rounding.get_or_init(|| Rounding::of(self))
+    }
+
+    /// What the signs of the weights come to.
+    pub(crate) fn surveys(&self) -> &Surveys {
+        self.surveys.get_or_init(|| Surveys::of(self))
     }
 
     /// Whether the signs of weights are read off the matrix: a construction vouches for them, or the weights do not come out of a

@@ -145,30 +145,40 @@ fn of_surface(surface: &Surface) -> Condition {
     let faces = parallel::collect(surface.faces().len(), |face| Element::of(surface, face));
     let (n, edges) = (surface.positions().len(), topology.edges().len());
     let at_vertex = |v: usize| topology.star(v).iter().map(|c| (&faces[c.face()], c.corner()));
-    let worst = |v: usize| at_vertex(v).filter_map(|(f, _)| f.condition).fold(1.0, f64::max);
-    let shortest = |v: usize| at_vertex(v).map(|(f, _)| f.shortest).fold(f64::INFINITY, f64::min);
-    let triangles = surface.is_triangulated().then(|| {
-        let opposite = |e: usize| {
-            let sides = topology.sides(e).iter().map(|s| (&faces[s.face()], (s.corner() + 2) % 3));
-            sides.filter(|(f, _)| f.condition.is_some())
-        };
-        let squares = |e: usize| opposite(e).fold(0.0, |sum, (f, corner)| sum + f.inverse_sine[corner].powi(2));
-        let pull = |v: usize| at_vertex(v).fold(0.0, |sum, (f, k)| f.condition.map_or(sum, |_| sum + f.pull[k]));
-        Triangles {
-            edge_condition: parallel::collect(edges, |e| {
-                opposite(e).filter_map(|(f, _)| f.condition).fold(1.0, f64::max)
-            }),
-            opposite: parallel::collect(edges, squares),
-            pull: parallel::collect(n, pull),
-            faces: parallel::collect(faces.len(), |f| (faces[f].area, faces[f].condition.unwrap_or(1.0))),
+    // Condition, shortest side, whether one is degenerate, pull: each star is walked once.
+    let around = |v: usize| {
+        let (mut worst, mut shortest, mut degenerate, mut pull) = (1.0, f64::INFINITY, false, 0.0);
+        for (face, corner) in at_vertex(v) {
+            shortest = f64::min(shortest, face.shortest);
+            match face.condition {
+                Some(q) => (worst, pull) = (f64::max(worst, q), pull + face.pull[corner]),
+                None => degenerate = true,
+            }
         }
-    });
-    Condition {
-        vertices: parallel::collect(n, worst),
-        shortest: parallel::collect(n, shortest),
-        degenerate: parallel::collect(n, |v| at_vertex(v).any(|(f, _)| f.condition.is_none())),
-        triangles,
+        (worst, shortest, degenerate, pull)
+    };
+    let beside = |e: usize| {
+        let (mut worst, mut squares) = (1.0, 0.0);
+        for side in topology.sides(e) {
+            let face = &faces[side.face()];
+            if let Some(q) = face.condition {
+                worst = f64::max(worst, q);
+                squares += face.inverse_sine[(side.corner() + 2) % 3].powi(2);
+            }
+        }
+        (worst, squares)
+    };
+    let mut condition = Condition::perfect(n);
+    let mut pull = vec![0.0; n];
+    for (v, found) in parallel::collect(n, around).into_iter().enumerate() {
+        (condition.vertices[v], condition.shortest[v], condition.degenerate[v], pull[v]) = found;
     }
+    if surface.is_triangulated() {
+        let (edge_condition, opposite) = parallel::collect(edges, beside).into_iter().unzip();
+        let faces = faces.iter().map(|f| (f.area, f.condition.unwrap_or(1.0))).collect();
+        condition.triangles = Some(Triangles { edge_condition, opposite, pull, faces });
+    }
+    condition
 }
 
 /// What the vertices and edges of a face gather from it; of a polygon with more corners only condition and shortest side.

@@ -86,7 +86,9 @@ pub(crate) fn is_flat_star(surface: &Surface, vertex: usize) -> bool {
     let star = surface.topology().star(vertex);
     let at = |v: usize| surface.positions()[v];
     let Some([a, b, c]) = star.first().and_then(|corner| proper_triangle(surface, corner.face())) else { return false };
-    let coplanar = |v: usize| [a, b, c].contains(&v) || orient3d(at(a), at(b), at(c), at(v)).is_eq();
+    // Points of one coordinate plane are coplanar without a determinant, which would be zero the slow way.
+    let level = |v: usize| (0..3).any(|k| [a, b, c].iter().all(|&w| at(w)[k] == at(v)[k]));
+    let coplanar = |v: usize| [a, b, c].contains(&v) || level(v) || orient3d(at(a), at(b), at(c), at(v)).is_eq();
     if !star.iter().all(|corner| surface.faces()[corner.face()].iter().all(|&v| coplanar(v))) {
         return false;
     }

@@ -17,7 +17,7 @@
 
 use super::stencil::Link;
 use super::tolerance::{Sign, Threshold};
-use crate::domain::{Domain, geometry};
+use crate::domain::{Domain, DomainKind, geometry};
 use crate::linalg::parallel;
 use crate::property::evidence::{Corner, Evidence, Statement};
 use crate::property::verdict::{Level, Tally};
@@ -37,40 +37,38 @@ pub(crate) struct Weight {
 }
 
 /// An edge with its weights: one in each direction, or one where only one is defined.
-#[derive(Clone, Copy)]
-pub(crate) struct Edge {
+#[derive(Clone, Copy, Debug)]
+struct Edge {
     /// The number of the edge in the domain, if it is one.
-    pub number: Option<usize>,
+    number: Option<usize>,
     first: Weight,
     second: Option<Weight>,
 }
 
 impl Edge {
     /// Its weights, that of the smaller row first.
-    pub fn weights(&self) -> impl Iterator<Item = &Weight> {
+    fn weights(&self) -> impl Iterator<Item = &Weight> {
         std::iter::once(&self.first).chain(&self.second)
     }
 }
 
 /// All weights of an operator: which there are is known, what they are is looked up when they are asked for.
-pub(crate) struct Weights<'a> {
+struct Weights<'a> {
     trial: &'a Trial<'a>,
     is_boundary: Vec<bool>,
     /// Whether the operator has edges of its own: then one of the domain that it stores nothing at carries no weight.
     own_edges: bool,
     /// On pairs that are no edges.
     beside: Vec<Edge>,
-    /// How many interior edges of the domain carry a weight, and how many boundary ones.
-    counts: [usize; 2],
     /// Edges that carry no weight because the operator has edges of its own.
-    pub unweighted: usize,
+    unweighted: usize,
     /// Whether signs are read literally.
-    pub literal: bool,
+    literal: bool,
 }
 
 /// Which edges.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Part {
+enum Part {
     /// Interior edges and pairs that are no edges.
     Interior,
     /// Boundary edges.
@@ -81,22 +79,21 @@ pub(crate) enum Part {
 
 impl<'a> Weights<'a> {
     /// Of the operator on trial. Cost: O(nnz log(row length)).
-    pub fn of(trial: &'a Trial) -> Self {
+    fn of(trial: &'a Trial) -> Self {
         let (matrix, edges, scales) = (trial.operator.stiffness(), trial.domain.edges(), trial.scales());
         let mut weights = Weights {
             trial,
             is_boundary: boundary_edges(trial.domain),
             own_edges: (0..matrix.rows()).any(|i| scales.leaves_stencil(i)),
             beside: Vec::new(),
-            counts: [0; 2],
             unweighted: 0,
             literal: trial.has_literal_signs(),
         };
-        for e in 0..edges.len() {
-            match weights.carries(e) {
-                true => weights.counts[usize::from(weights.is_boundary[e])] += 1,
-                false => weights.unweighted += 1,
-            }
+        weights.unweighted = (0..edges.len()).filter(|&e| !weights.carries(e)).count();
+        // Where no row leaves the stencil and no face has diagonals, every entry is on an edge.
+        let diagonals = trial.domain.as_surface().is_some_and(|s| !s.is_triangulated());
+        if !(weights.own_edges || diagonals || trial.domain.kind() == DomainKind::Points) {
+            return weights;
         }
         let beside = |rows: std::ops::Range<usize>| rows.flat_map(|i| weights.beside(i)).collect::<Vec<_>>();
         let found = parallel::blocks(matrix.rows(), beside).concat();
@@ -126,38 +123,47 @@ impl<'a> Weights<'a> {
         Weight { i, j, value, threshold }
     }
 
-    /// How many edges a part has at most, and the one with this number; `None` where that carries no weight or belongs to
-    /// another part.
-    fn get(&self, part: Part, k: usize) -> Option<Edge> {
+    /// The edge with this number, those of the domain first; `None` where it carries no weight.
+    fn get(&self, k: usize) -> Option<Edge> {
         let edges = self.trial.domain.edges();
         let Some(&[i, j]) = edges.get(k) else { return self.beside.get(k - edges.len()).copied() };
-        let on_boundary = self.trial.domain.boundary();
-        let belongs = self.is_boundary[k] == (part == Part::Boundary)
-            && (part != Part::Bridges || (on_boundary[i] && on_boundary[j]));
         let both = || (self.weight(i, j, Some(k)), self.weight(j, i, Some(k)));
-        (belongs && self.carries(k)).then(both).map(|(first, second)| Edge {
-            number: Some(k),
-            first,
-            second: Some(second),
-        })
+        self.carries(k).then(both).map(|(first, second)| Edge { number: Some(k), first, second: Some(second) })
     }
 
-    fn most(&self, part: Part) -> usize {
-        self.trial.domain.edges().len() + if part == Part::Interior { self.beside.len() } else { 0 }
+    /// Whether an edge belongs to a part.
+    fn belongs(&self, edge: &Edge, part: Part) -> bool {
+        let on_boundary = self.trial.domain.boundary();
+        let is_boundary = edge.number.is_some_and(|e| self.is_boundary[e]);
+        match part {
+            Part::Interior => !is_boundary,
+            Part::Boundary => is_boundary,
+            Part::Bridges => {
+                !is_boundary && edge.number.is_some() && on_boundary[edge.first.i] && on_boundary[edge.first.j]
+            }
+        }
     }
 
-    /// Whether there is no edge on the inside, nor a pair that is no edge.
-    pub fn no_interior(&self) -> bool {
-        self.counts[0] + self.beside.len() == 0
-    }
-
-    /// Whether there is no boundary edge.
-    pub fn no_boundary(&self) -> bool {
-        self.counts[1] == 0
+    /// Surveys all parts, block by block in parallel, the blocks in order: each weight is looked up once.
+    fn surveys(&self) -> Surveys {
+        let count = self.trial.domain.edges().len() + self.beside.len();
+        let block = |range: std::ops::Range<usize>| {
+            let mut surveys = Surveys::default();
+            range.filter_map(|k| self.get(k)).for_each(|edge| surveys.each(|survey| survey.look(self, &edge)));
+            surveys
+        };
+        let mut surveys = Surveys::default();
+        for found in parallel::blocks(count, block) {
+            surveys.strict.add(self, found.strict);
+            surveys.weak.add(self, found.weak);
+            surveys.boundary.add(self, found.boundary);
+            surveys.bridges.add(self, found.bridges);
+        }
+        surveys
     }
 
     /// What a reader should know of how the weights were counted.
-    pub fn notes(&self) -> Vec<String> {
+    fn notes(&self) -> Vec<String> {
         let mut notes = Vec::new();
         if !self.beside.is_empty() {
             notes.push(format!("{} weights are on pairs that are no edges of the domain", self.beside.len()));
@@ -206,7 +212,7 @@ pub(crate) enum Class {
 }
 
 /// The strict predicate `ω > 0`; a weight that rounding cannot tell from zero is open, for only an exact zero is one.
-pub(crate) fn strict(w: &Weight) -> Class {
+fn strict(w: &Weight) -> Class {
     match w.threshold.sign(w.value) {
         _ if w.value == 0.0 => Class::Zero,
         Sign::Zero | Sign::Open => Class::Open,
@@ -216,7 +222,7 @@ pub(crate) fn strict(w: &Weight) -> Class {
 }
 
 /// The weak predicate `ω ≥ 0`; what rounding explains is zero.
-pub(crate) fn weak(w: &Weight) -> Class {
+fn weak(w: &Weight) -> Class {
     match w.threshold.sign(w.value) {
         Sign::Zero => Class::Zero,
         Sign::Negative => Class::Violation,
@@ -225,88 +231,135 @@ pub(crate) fn weak(w: &Weight) -> Class {
     }
 }
 
-/// Decides a predicate on the edges of a part, worst class first in `order`; the classes in `failing` make it fail.
-pub(crate) fn decide(
-    weights: &Weights,
+/// Worst first: a negative weight, a zero, a sign that is not clear.
+const STRICT: [Class; 4] = [Class::Violation, Class::Zero, Class::Open, Class::Fine];
+
+/// Worst first: a negative weight, one that is open, a zero.
+const WEAK: [Class; 4] = [Class::Violation, Class::Open, Class::Zero, Class::Fine];
+
+/// What the edges of a part come to under a predicate.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Survey {
     part: Part,
     class: fn(&Weight) -> Class,
     order: [Class; 4],
-    failing: &[Class],
-) -> Verdict {
-    let Survey { tally, worst, margin } = survey(weights, part, class, order);
-    let level = if weights.literal { Level::Exact } else { Level::Measured };
-    let verdict = match worst {
-        Some((found, number, w)) if failing.contains(&found) => {
-            Verdict::fails(level, witness(weights.trial, number, &w, found == Class::Zero))
-        }
-        Some((Class::Open, _, w)) => Verdict::undecided(format!(
-            "the weight {:.2e} at ({}, {}), one of {}, is no larger than {:.2e}: rounding may have given it its sign",
-            w.value, w.i, w.j, tally.undecided, w.threshold.defect
-        )),
-        other => {
-            let worst = other.map_or_else(Vec::new, |(_, _, w)| vec![w.i, w.j]);
-            Verdict::holds(level, Evidence::bare(Statement::Scan { checked: tally.total, worst }))
-        }
-    };
-    let verdict = verdict.with_tally(tally);
-    if weights.literal { verdict } else { verdict.with_margin(margin) }
-}
-
-/// What the edges of a part come to.
-pub(crate) struct Survey {
     /// The classes, an edge being of its worse direction's.
     pub tally: Tally,
-    /// The worst weight with its class and its edge: that of the worst class which is the most negative relative to its row.
-    worst: Option<(Class, Option<usize>, Weight)>,
+    /// The worst weight and its edge: that of the worst class which is the most negative relative to its row.
+    worst: Option<(Edge, Weight)>,
     /// The largest margin of a negative weight.
     margin: f64,
 }
 
-/// Surveys the edges of a part in their order: block by block in parallel, the blocks in order.
-pub(crate) fn survey(weights: &Weights, part: Part, class: fn(&Weight) -> Class, order: [Class; 4]) -> Survey {
-    let rank = |c: Class| order.iter().position(|&o| o == c).unwrap_or(order.len());
-    let scales = &weights.trial.scales().rows;
-    let relative = |w: &Weight| if w.value == 0.0 { 0.0 } else { w.value / scales[w.i] };
-    let worse = |a: &Weight, b: &Weight| {
-        let (x, y) = (rank(class(a)), rank(class(b)));
-        x < y || (x == y && relative(a) < relative(b))
-    };
-    let block = |range: std::ops::Range<usize>| {
-        let (mut tally, mut margin) = (Tally::default(), 0.0_f64);
-        let mut worst: Option<(Edge, Weight)> = None;
-        for edge in range.filter_map(|k| weights.get(part, k)) {
-            tally.total += 1;
-            margin = edge.weights().fold(margin, |m, w| m.max(w.threshold.margin((-w.value).max(0.0))));
-            let Some(w) = edge.weights().reduce(|a, b| if worse(b, a) { b } else { a }) else { continue };
-            match class(w) {
-                Class::Violation => tally.violations += 1,
-                Class::Zero => tally.zeros += 1,
-                Class::Open => tally.undecided += 1,
-                Class::Fine => {}
-            }
-            if worst.as_ref().is_none_or(|(_, known)| worse(w, known)) {
-                worst = Some((edge, *w));
-            }
-        }
-        (tally, margin, worst)
-    };
-    let (mut tally, mut margin, mut worst) = (Tally::default(), 0.0_f64, None::<(Edge, Weight)>);
-    for (counted, largest, found) in parallel::blocks(weights.most(part), block) {
-        tally.total += counted.total;
-        tally.violations += counted.violations;
-        tally.zeros += counted.zeros;
-        tally.undecided += counted.undecided;
-        margin = margin.max(largest);
-        worst = match (worst, found) {
-            (Some(known), Some(found)) if !worse(&found.1, &known.1) => Some(known),
-            (known, found) => found.or(known),
-        };
+impl Survey {
+    fn new(part: Part, class: fn(&Weight) -> Class, order: [Class; 4]) -> Self {
+        Survey { part, class, order, tally: Tally::default(), worst: None, margin: 0.0 }
     }
-    // Where both directions say the same, the smaller end is named.
-    let first = |edge: &Edge, w: &Weight| {
-        edge.weights().find(|v| v.value == w.value && class(v) == class(w)).copied().unwrap_or(*w)
-    };
-    Survey { tally, worst: worst.map(|(edge, w)| (class(&w), edge.number, first(&edge, &w))), margin }
+
+    fn worse(&self, weights: &Weights, a: &Weight, b: &Weight) -> bool {
+        let scales = &weights.trial.scales().rows;
+        let rank = |w: &Weight| self.order.iter().position(|&o| o == (self.class)(w)).unwrap_or(self.order.len());
+        let relative = |w: &Weight| if w.value == 0.0 { 0.0 } else { w.value / scales[w.i] };
+        let (x, y) = (rank(a), rank(b));
+        x < y || (x == y && relative(a) < relative(b))
+    }
+
+    fn look(&mut self, weights: &Weights, edge: &Edge) {
+        if !weights.belongs(edge, self.part) {
+            return;
+        }
+        self.tally.total += 1;
+        self.margin = edge.weights().fold(self.margin, |m, w| m.max(w.threshold.margin((-w.value).max(0.0))));
+        let Some(w) = edge.weights().reduce(|a, b| if self.worse(weights, b, a) { b } else { a }) else { return };
+        match (self.class)(w) {
+            Class::Violation => self.tally.violations += 1,
+            Class::Zero => self.tally.zeros += 1,
+            Class::Open => self.tally.undecided += 1,
+            Class::Fine => {}
+        }
+        if self.worst.as_ref().is_none_or(|(_, known)| self.worse(weights, w, known)) {
+            self.worst = Some((*edge, *w));
+        }
+    }
+
+    /// What comes of looking at the edges of both, those of `self` first.
+    fn add(&mut self, weights: &Weights, later: Self) {
+        self.tally.total += later.tally.total;
+        self.tally.violations += later.tally.violations;
+        self.tally.zeros += later.tally.zeros;
+        self.tally.undecided += later.tally.undecided;
+        self.margin = self.margin.max(later.margin);
+        if let Some((edge, w)) = later.worst
+            && self.worst.as_ref().is_none_or(|(_, known)| self.worse(weights, &w, known))
+        {
+            self.worst = Some((edge, w));
+        }
+    }
+
+    /// Decides the predicate; the classes in `failing` make it fail.
+    pub fn decide(&self, trial: &Trial, failing: &[Class]) -> Verdict {
+        let (tally, class, literal) = (self.tally, self.class, trial.has_literal_signs());
+        let level = if literal { Level::Exact } else { Level::Measured };
+        // Where both directions say the same, the smaller end is named.
+        let first = |(edge, w): &(Edge, Weight)| {
+            let same = edge.weights().find(|v| v.value == w.value && class(v) == class(w)).copied();
+            (class(w), edge.number, same.unwrap_or(*w))
+        };
+        let verdict = match self.worst.as_ref().map(first) {
+            Some((found, number, w)) if failing.contains(&found) => {
+                Verdict::fails(level, witness(trial, number, &w, found == Class::Zero))
+            }
+            Some((Class::Open, _, w)) => Verdict::undecided(format!(
+                "the weight {:.2e} at ({}, {}), one of {}, is no larger than {:.2e}: rounding may have given it its sign",
+                w.value, w.i, w.j, tally.undecided, w.threshold.defect
+            )),
+            other => {
+                let worst = other.map_or_else(Vec::new, |(_, _, w)| vec![w.i, w.j]);
+                Verdict::holds(level, Evidence::bare(Statement::Scan { checked: tally.total, worst }))
+            }
+        };
+        let verdict = verdict.with_tally(tally);
+        if literal { verdict } else { verdict.with_margin(self.margin) }
+    }
+}
+
+/// The surveys of all parts; kept by [`Trial::surveys`].
+#[derive(Clone, Debug)]
+pub(crate) struct Surveys {
+    /// `ω > 0` on interior edges.
+    pub strict: Survey,
+    /// `ω ≥ 0` on interior edges.
+    pub weak: Survey,
+    /// `ω > 0` on boundary edges.
+    pub boundary: Survey,
+    /// `ω > 0` on interior edges with both ends on the boundary.
+    pub bridges: Survey,
+    /// What a reader should know of how the weights were counted.
+    pub notes: Vec<String>,
+}
+
+impl Default for Surveys {
+    fn default() -> Self {
+        Surveys {
+            strict: Survey::new(Part::Interior, strict, STRICT),
+            weak: Survey::new(Part::Interior, weak, WEAK),
+            boundary: Survey::new(Part::Boundary, strict, STRICT),
+            bridges: Survey::new(Part::Bridges, strict, STRICT),
+            notes: Vec::new(),
+        }
+    }
+}
+
+impl Surveys {
+    /// Of the operator on trial.
+    pub fn of(trial: &Trial) -> Self {
+        let weights = Weights::of(trial);
+        Surveys { notes: weights.notes(), ..weights.surveys() }
+    }
+
+    fn each(&mut self, mut f: impl FnMut(&mut Survey)) {
+        [&mut self.strict, &mut self.weak, &mut self.boundary, &mut self.bridges].into_iter().for_each(&mut f);
+    }
 }
 
 fn witness(trial: &Trial, number: Option<usize>, w: &Weight, zero: bool) -> Evidence {
