@@ -354,12 +354,56 @@ pub fn orient(faces: &mut Faces, topology: &Topology) -> Orientation {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeMap;
+
     use super::*;
 
     fn topology(n: usize, faces: &[[usize; 3]]) -> (Faces, Topology) {
         let faces = Faces::triangles(faces);
         let t = Topology::new(n, &faces);
         (faces, t)
+    }
+
+    /// Edges and sides by a sorted map over all faces: another way than star by star.
+    fn by_map(faces: &Faces) -> BTreeMap<[usize; 2], Vec<(usize, usize, bool)>> {
+        let mut map: BTreeMap<_, Vec<_>> = BTreeMap::new();
+        for (face, corners) in faces.iter().enumerate() {
+            for (corner, &a) in corners.iter().enumerate() {
+                let b = corners[(corner + 1) % corners.len()];
+                map.entry([a.min(b), a.max(b)]).or_default().push((face, corner, a < b));
+            }
+        }
+        map
+    }
+
+    #[test]
+    fn stars_find_the_edges_and_sides_of_a_map_where_many_faces_share_them_and_on_any_number_of_threads() {
+        let mut state = 1_u64;
+        let mut below = |n: usize| {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (state >> 33) as usize % n
+        };
+        for (n, count) in [(5, 40), (12, 200), (200, 150), (3 * BLOCK, 9 * BLOCK)] {
+            // Triangles, quadrilaterals and pentagons of neighbouring numbers, the larger of them with many faces an edge.
+            let face = |_| {
+                let (first, corners) = (below(n - 4), 3 + below(3));
+                let mut face: Vec<usize> = (first..first + corners).collect();
+                let turn = below(corners);
+                face.rotate_left(turn);
+                if below(2) == 0 { face.into_iter().rev().collect() } else { face }
+            };
+            let faces: Faces = (0..count).map(face).collect::<Vec<Vec<usize>>>().iter().collect();
+            let expected = by_map(&faces);
+            for threads in [1, 2, 4] {
+                let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+                let t = pool.install(|| Topology::new(n, &faces));
+                assert_eq!(t.edges(), expected.keys().copied().collect::<Vec<_>>());
+                for (e, sides) in expected.values().enumerate() {
+                    let found: Vec<_> = t.sides(e).iter().map(|s| (s.face(), s.corner(), s.forward())).collect();
+                    assert_eq!(found, *sides);
+                }
+            }
+        }
     }
 
     #[test]

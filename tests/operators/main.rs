@@ -6,6 +6,7 @@ mod identities;
 mod masses;
 mod meshes;
 mod refusals;
+mod rows;
 
 use std::collections::BTreeMap;
 
