@@ -57,7 +57,8 @@ fn construction(c: &mut Criterion) {
                 b.iter(|| mass::of_triangles(kind, n, each()))
             });
         }
-        group.bench_function(BenchmarkId::new("cotan with barycentric mass", n), |b| b.iter(|| build("cotan", &domain)));
+        group
+            .bench_function(BenchmarkId::new("cotan with barycentric mass", n), |b| b.iter(|| build("cotan", &domain)));
         group.finish();
     }
 }

@@ -5,7 +5,7 @@
 //! cargo run --release --example bench_operators -- MESH TASK [REPEATS]
 //! ```
 //! reads the mesh, then for each line of the input (or `REPEATS` times) runs the task once and prints one line of JSON:
-//! `seconds`, `cpu_seconds` of all threads (with what the task cleans up after it), and where the task has parts `parts`, the seconds of each. The task `memory:TASK` runs it once and prints
+//! `seconds`, `cpu_seconds` of all threads, and where the task has parts `parts`, the seconds of each. The task `memory:TASK` runs it once and prints
 //! `peak_bytes`, by how much the resident memory of the process rose above what it was with the mesh in it (Linux only).
 //!
 //! | task | what is timed |
@@ -33,7 +33,26 @@ const STRUCTURAL: [&str; 13] =
     ["FIN", "LOC", "SYM", "NULL", "POS", "POS0", "POS-boundary", "LIN", "ENERGY", "FLUX", "MVP", "MASS", "MAX-local"];
 
 /// The seconds that something took, and those of its parts.
-type Timed = (f64, Vec<(&'static str, f64)>);
+struct Timed {
+    seconds: f64,
+    cpu_seconds: f64,
+    parts: Vec<(&'static str, f64)>,
+}
+
+/// A clock for the wall and one for the processor.
+struct Clock(Instant, f64);
+
+impl Clock {
+    fn start() -> Self {
+        let cpu = cpu_seconds();
+        Clock(Instant::now(), cpu)
+    }
+
+    fn stop(&self, parts: Vec<(&'static str, f64)>) -> Timed {
+        let seconds = self.0.elapsed().as_secs_f64();
+        Timed { seconds, cpu_seconds: cpu_seconds() - self.1, parts }
+    }
+}
 
 fn build(id: &str, domain: &Domain) -> Outcome<Operator> {
     Ok(laplacian::find(id).ok_or("no such operator")?.build(domain, &Default::default())?)
@@ -78,24 +97,24 @@ impl Task {
     fn run(&self) -> Outcome<Timed> {
         match self {
             Task::Build { id, domain } => {
-                let start = Instant::now();
+                let clock = Clock::start();
                 let operator = build(id, domain)?;
-                let seconds = start.elapsed().as_secs_f64();
+                let timed = clock.stop(Vec::new());
                 drop(operator);
-                Ok((seconds, Vec::new()))
+                Ok(timed)
             }
             Task::FromFaces { id, positions, faces } => {
                 let positions = positions.clone();
-                let start = Instant::now();
+                let clock = Clock::start();
                 let domain = Domain::from(Surface::triangles(positions, faces)?);
-                let topology = start.elapsed().as_secs_f64();
+                let topology = clock.0.elapsed().as_secs_f64();
                 let operator = build(id, &domain)?;
-                let seconds = start.elapsed().as_secs_f64();
+                let timed = clock.stop(vec![("topology", topology)]);
                 drop(operator);
-                Ok((seconds, vec![("topology", topology), ("build", seconds - topology)]))
+                Ok(timed)
             }
             Task::Verdicts { domain, operator } => {
-                let start = Instant::now();
+                let clock = Clock::start();
                 let trial = Trial::new(domain, operator, 0)?;
                 let mut parts = Vec::new();
                 for id in STRUCTURAL {
@@ -104,7 +123,7 @@ impl Task {
                     parts.push((id, before.elapsed().as_secs_f64()));
                     drop(verdict);
                 }
-                Ok((start.elapsed().as_secs_f64(), parts))
+                Ok(clock.stop(parts))
             }
         }
     }
@@ -145,9 +164,7 @@ fn main() -> Outcome<()> {
     let task = Task::prepare(name, domain)?;
     let mut out = std::io::stdout().lock();
     let mut report = || -> Outcome<()> {
-        let before = cpu_seconds();
-        let (seconds, parts) = task.run()?;
-        let cpu_seconds = cpu_seconds() - before;
+        let Timed { seconds, cpu_seconds, parts } = task.run()?;
         let parts: serde_json::Map<_, _> = parts.into_iter().map(|(id, s)| (id.to_string(), s.into())).collect();
         writeln!(out, "{}", serde_json::json!({ "seconds": seconds, "cpu_seconds": cpu_seconds, "parts": parts }))?;
         Ok(out.flush()?)

@@ -93,10 +93,9 @@ impl Topology {
         assert!(faces.corners().len() <= Topology::MOST_CORNERS, "too many corners to number");
         let (star_offsets, star) = stars(vertices, faces);
         let around = |v: usize| &star[star_offsets[v]..star_offsets[v + 1]];
-        let block = |k: usize| {
-            let mut block = Block::default();
+        let block = |range: std::ops::Range<usize>, mut block: Block| {
             let mut found: Vec<(usize, Side)> = Vec::new();
-            for low in k * BLOCK..vertices.min((k + 1) * BLOCK) {
+            for low in range {
                 edges_upward(low, around(low), faces, &mut found);
                 for &(high, side) in &found {
                     match (block.edges.last(), block.counts.last_mut()) {
@@ -111,12 +110,21 @@ impl Topology {
             }
             block
         };
-        let blocks: Vec<Block> = match vertices.div_ceil(BLOCK) {
-            0 | 1 => vec![block(0)],
-            count => (0..count).into_par_iter().map(block).collect(),
+        let corners = faces.corners().len();
+        let blocks: Vec<Block> = if vertices <= BLOCK || rayon::current_num_threads() == 1 {
+            // Euler: a closed triangle mesh has half as many edges as corners, and one with a boundary a few more.
+            let (edges, counts) = (Vec::with_capacity(corners / 2 + 1), Vec::with_capacity(corners / 2 + 1));
+            vec![block(0..vertices, Block { edges, counts, sides: Vec::with_capacity(corners) })]
+        } else {
+            let range = |k: usize| k * BLOCK..vertices.min((k + 1) * BLOCK);
+            (0..vertices.div_ceil(BLOCK)).into_par_iter().map(|k| block(range(k), Block::default())).collect()
         };
         let count: usize = blocks.iter().map(|b| b.edges.len()).sum();
-        let (mut edges, mut sides) = (Vec::with_capacity(count), Vec::with_capacity(faces.corners().len()));
+        let (mut edges, mut sides) = (Vec::new(), Vec::new());
+        if blocks.len() > 1 {
+            edges.reserve_exact(count);
+            sides.reserve_exact(corners);
+        }
         let mut side_offsets = Vec::with_capacity(count + 1);
         side_offsets.push(0);
         let mut boundary_vertices = vec![false; vertices];
@@ -130,8 +138,13 @@ impl Topology {
                     boundary_vertices[b] = true;
                 }
             }
-            edges.extend(block.edges);
-            sides.extend(block.sides);
+            // The first is kept as it is, if nothing is to come after it.
+            if edges.capacity() == 0 {
+                (edges, sides) = (block.edges, block.sides);
+            } else {
+                edges.extend(block.edges);
+                sides.extend(block.sides);
+            }
         }
         Topology { edges, side_offsets, sides, boundary_vertices, star_offsets, star }
     }

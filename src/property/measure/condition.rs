@@ -102,8 +102,8 @@ pub(crate) struct Triangles {
     pub opposite: Vec<f64>,
     /// At each vertex `σ = Σ ½ (cot θ_b + cot θ_c)`, the diagonal of the cotangent Laplacian.
     pub pull: Vec<f64>,
-    /// The area and the condition of each face; 0 and 1 for a degenerate one.
-    pub faces: Vec<(f64, f64)>,
+    /// The triangles.
+    pub faces: Vec<Element>,
 }
 
 impl Condition {
@@ -151,8 +151,11 @@ fn of_surface(surface: &Surface) -> Condition {
         for (face, corner) in at_vertex(v) {
             shortest = f64::min(shortest, face.shortest);
             match face.condition {
-                Some(q) => (worst, pull) = (f64::max(worst, q), pull + face.pull[corner]),
+                Some(q) => worst = f64::max(worst, q),
                 None => degenerate = true,
+            }
+            if let Some(shape) = &face.shape {
+                pull += shape.pull[corner];
             }
         }
         (worst, shortest, degenerate, pull)
@@ -161,9 +164,9 @@ fn of_surface(surface: &Surface) -> Condition {
         let (mut worst, mut squares) = (1.0, 0.0);
         for side in topology.sides(e) {
             let face = &faces[side.face()];
-            if let Some(q) = face.condition {
+            if let (Some(shape), Some(q)) = (&face.shape, face.condition) {
                 worst = f64::max(worst, q);
-                squares += face.inverse_sine[(side.corner() + 2) % 3].powi(2);
+                squares += shape.inverse_sine[(side.corner() + 2) % 3].powi(2);
             }
         }
         (worst, squares)
@@ -175,19 +178,19 @@ fn of_surface(surface: &Surface) -> Condition {
     }
     if surface.is_triangulated() {
         let (edge_condition, opposite) = parallel::collect(edges, beside).into_iter().unzip();
-        let faces = faces.iter().map(|f| (f.area, f.condition.unwrap_or(1.0))).collect();
         condition.triangles = Some(Triangles { edge_condition, opposite, pull, faces });
     }
     condition
 }
 
-/// What the vertices and edges of a face gather from it; of a polygon with more corners only condition and shortest side.
-struct Element {
-    condition: Option<f64>,
+/// What the vertices and edges of a face gather from it; of a polygon with more corners there is no shape.
+#[derive(Clone, Debug)]
+pub(crate) struct Element {
+    /// Its shape, if it is a proper triangle.
+    pub shape: Option<Shape>,
+    /// Its condition; `None` if it is degenerate.
+    pub condition: Option<f64>,
     shortest: f64,
-    area: f64,
-    inverse_sine: [f64; 3],
-    pull: [f64; 3],
 }
 
 impl Element {
@@ -195,16 +198,9 @@ impl Element {
         let corners = &surface.faces()[face];
         let at = |k: usize| surface.positions()[corners[if k == corners.len() { 0 } else { k }]];
         let shortest = (0..corners.len()).map(|k| distance(at(k), at(k + 1))).fold(f64::INFINITY, f64::min);
-        match Shape::of_face(surface, face) {
-            Some(Shape { inverse_sine, pull, area, .. }) => {
-                let condition = Some(inverse_sine.iter().copied().fold(1.0, f64::max));
-                Element { condition, shortest, area, inverse_sine, pull }
-            }
-            None => {
-                let condition = of_polygon(surface, face);
-                Element { condition, shortest, area: 0.0, inverse_sine: [0.0; 3], pull: [0.0; 3] }
-            }
-        }
+        let shape = Shape::of_face(surface, face);
+        let condition = shape.as_ref().map(Shape::condition).or_else(|| of_polygon(surface, face));
+        Element { shape, condition, shortest }
     }
 }
 

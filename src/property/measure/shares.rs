@@ -11,7 +11,7 @@
 //! `[min(¼, f), max(½, f)]·A`, and the share of a vertex between the sums of these over its star.
 
 use super::compensated::Sum;
-use super::condition::Shape;
+use super::condition::{Element, Shape};
 use super::tolerance::{Scales, Threshold, UNIT_ROUNDOFF};
 use crate::domain::geometry::orient3d;
 use crate::domain::{Surface, geometry};
@@ -53,52 +53,35 @@ fn mixed(shape: &Shape, corner: usize) -> f64 {
     }
 }
 
-/// What a triangle adds to the share of each of its corners.
-#[derive(Clone, Copy)]
-struct Parts {
-    area: f64,
-    voronoi: [f64; 3],
-    mixed: [f64; 3],
-    circumscribed: [f64; 3],
-}
-
-impl Parts {
-    fn of(shape: &Shape) -> Self {
-        let per_corner = |f: &dyn Fn(usize) -> f64| [f(0), f(1), f(2)];
-        Parts {
-            area: shape.area,
-            voronoi: per_corner(&|c| voronoi(shape, c)),
-            mixed: per_corner(&|c| mixed(shape, c)),
-            circumscribed: per_corner(&|c| shape.squared_length[c] * shape.inverse_sine[c].powi(2)),
-        }
-    }
-}
-
 /// The shares of all vertices, gathered over the faces around each in face order. Degenerate faces have none; of a polygon
 /// only the area of the star is known, and a share between nothing and that.
 pub(crate) fn of(surface: &Surface, scales: &Scales) -> Vec<Share> {
     let topology = surface.topology();
     let faces = surface.faces();
-    let parts = parallel::collect(faces.len(), |face| Shape::of_face(surface, face).map(|shape| Parts::of(&shape)));
+    let known = scales.geometry().triangles.as_ref().map(|t| &t.faces);
+    let shape = |face: usize| match known {
+        Some(known) => known[face].shape,
+        None => Shape::of_face(surface, face),
+    };
     parallel::collect(surface.positions().len(), |v| {
         let (mut s, mut circumscribed) = (Share::default(), 0.0);
         for at in topology.star(v) {
             let (face, corner) = (at.face(), at.corner());
-            let Some(p) = &parts[face] else {
+            let Some(shape) = shape(face) else {
                 if faces[face].len() > 3 {
                     s.star += surface.face_area(face);
                     s.upper += surface.face_area(face);
                 }
                 continue;
             };
-            let part = p.voronoi[corner];
-            s.star += p.area;
-            s.third += p.area / 3.0;
+            let part = voronoi(&shape, corner);
+            s.star += shape.area;
+            s.third += shape.area / 3.0;
             s.voronoi += part;
-            s.mixed += p.mixed[corner];
-            s.lower += part.min(0.25 * p.area);
-            s.upper += part.max(0.5 * p.area);
-            circumscribed += p.circumscribed[corner];
+            s.mixed += mixed(&shape, corner);
+            s.lower += part.min(0.25 * shape.area);
+            s.upper += part.max(0.5 * shape.area);
+            circumscribed += shape.squared_length[corner] * shape.inverse_sine[corner].powi(2);
         }
         let q = scales.condition(v);
         s.threshold = Threshold::over(s.star, topology.star(v).len(), q);
@@ -118,7 +101,10 @@ pub(crate) fn area(surface: &Surface, scales: &Scales) -> (f64, Threshold) {
         threshold = threshold.plus(Threshold::over(area, corners, q));
     };
     match &scales.geometry().triangles {
-        Some(triangles) => triangles.faces.iter().for_each(|&(area, q)| add(area, 3, q)),
+        Some(triangles) => {
+            let area = |f: &Element| f.shape.map_or(0.0, |s| s.area);
+            triangles.faces.iter().for_each(|f| add(area(f), 3, f.condition.unwrap_or(1.0)));
+        }
         None => {
             for (face, corners) in surface.faces().iter().enumerate() {
                 match Shape::of_face(surface, face) {
