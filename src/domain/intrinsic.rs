@@ -46,6 +46,8 @@ pub struct IntrinsicTriangulation<'a> {
     face: Vec<usize>,
     length: Vec<f64>,
     faces: Vec<Face>,
+    /// Of each edge, whether a triangle beside it was touched by a flip.
+    touched: Vec<bool>,
     flips: usize,
 }
 
@@ -108,6 +110,7 @@ impl<'a> IntrinsicTriangulation<'a> {
             face: vec![NONE; 2 * edges.len()],
             length: edges.iter().map(|&[a, b]| distance(surface.point(a), surface.point(b))).collect(),
             faces: Vec::with_capacity(surface.faces().len()),
+            touched: vec![false; edges.len()],
             flips: 0,
         };
         let rings = result.take_half_edges(keep)?;
@@ -184,8 +187,13 @@ impl<'a> IntrinsicTriangulation<'a> {
 
     /// The ends of an edge, equal for a loop; `None` for an edge of the surface none of whose faces was kept.
     pub fn ends(&self, edge: usize) -> Option<[usize; 2]> {
-        let h = self.sides(edge).next()?;
-        Some([self.origin[h], self.origin[self.next[h]]])
+        let (h, t) = (2 * edge, 2 * edge + 1);
+        match (self.face[h] != NONE, self.face[t] != NONE) {
+            (true, true) => Some([self.origin[h], self.origin[t]]),
+            (true, false) => Some([self.origin[h], self.origin[self.next[h]]]),
+            (false, true) => Some([self.origin[t], self.origin[self.next[t]]]),
+            (false, false) => None,
+        }
     }
 
     /// The length of an edge.
@@ -214,6 +222,11 @@ impl<'a> IntrinsicTriangulation<'a> {
         self.half_edges(face).map(|h| self.origin[h])
     }
 
+    /// The vertex opposite a half-edge that has a triangle.
+    pub fn apex(&self, half_edge: usize) -> usize {
+        self.origin[self.next[self.next[half_edge]]]
+    }
+
     /// Twice the area of a triangle.
     pub fn doubled_area(&self, face: usize) -> f64 {
         self.faces[face].doubled_area
@@ -221,7 +234,7 @@ impl<'a> IntrinsicTriangulation<'a> {
 
     /// Whether the triangle is the one that its corners span in space, so that positions give its metric.
     pub fn is_straight(&self, face: usize) -> bool {
-        self.faces[face].straight
+        self.is_planar() || self.faces[face].straight
     }
 
     /// The face of the surface that a triangle is, corner for corner; `None` once a flip has touched it.

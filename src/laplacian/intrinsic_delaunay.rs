@@ -135,13 +135,21 @@ fn build(domain: &Domain, settings: &Settings) -> Result<Operator, BuildError> {
     let clear = parallel::collect(intrinsic.edge_count(), clear);
     let flips = intrinsic.make_delaunay_knowing(|edge| clear[edge]);
     drop(clear);
-    let shapes = parallel::collect(intrinsic.face_count(), |f| shape(&intrinsic, &triangles, f));
-    let weights = parallel::collect(intrinsic.edge_count(), |e| edge_weights(&intrinsic, &shapes, e));
+    let shapes =
+        parallel::collect(intrinsic.face_count(), |f| (corners(&intrinsic, f), shape(&intrinsic, &triangles, f)));
+    // The cotangent opposite each half-edge, put down face by face: edges then read theirs in order.
+    let mut opposite = vec![0.0; 2 * intrinsic.edge_count()];
+    for (face, (_, shape)) in shapes.iter().enumerate() {
+        let [h, n, p] = intrinsic.half_edges(face);
+        (opposite[n], opposite[p], opposite[h]) = shape.cotangents.into();
+    }
+    let weights = parallel::collect(intrinsic.edge_count(), |e| edge_weights(&intrinsic, &opposite, e));
+    drop(opposite);
     let weights: Vec<EdgeWeights<f64>> = weights.into_iter().flatten().collect();
     let n = surface.positions().len();
     let matrix = stiffness::finite(ENTRY.id, n, &weights)?;
-    let corners = (0..intrinsic.face_count()).map(|f| intrinsic.corners(f));
-    let mass = mass::build(ENTRY.id, settings.get("mass"), n, corners.zip(&shapes))?;
+    let each = shapes.iter().map(|(corners, shape)| (*corners, shape));
+    let mass = mass::build(ENTRY.id, settings.get("mass"), n, each)?;
     let mut notes = on_triangles::notes(&triangles);
     notes.push(format!("{flips} flips to the intrinsic Delaunay triangulation"));
     notes.extend(negative_by_rounding(&intrinsic, &weights));
@@ -158,6 +166,12 @@ fn refusal(error: IntrinsicError) -> BuildError {
         IntrinsicError::NonManifold { a, b, faces } => BuildError::NonManifold { laplacian, a, b, faces },
         IntrinsicError::NotOrientable { a, b } => BuildError::NotOrientable { laplacian, a, b },
     }
+}
+
+/// The corners of an intrinsic triangle, in the order of its half-edges.
+fn corners(intrinsic: &IntrinsicTriangulation, face: usize) -> [usize; 3] {
+    let known = intrinsic.source(face).and_then(|source| intrinsic.surface().triangle(source));
+    known.unwrap_or_else(|| intrinsic.corners(face))
 }
 
 /// The shape of an intrinsic triangle, in the order of its half-edges: that of the face that it is, from positions where it is
@@ -179,27 +193,16 @@ fn shape(intrinsic: &IntrinsicTriangulation, triangles: &Triangles, face: usize)
     }
 }
 
-/// The ends and the weight of an intrinsic edge, its sign exact where both triangles are straight.
-fn edge_weights(intrinsic: &IntrinsicTriangulation, shapes: &[Shape<f64>], edge: usize) -> Option<EdgeWeights<f64>> {
+/// The ends and the weight of an intrinsic edge, its sign exact where both triangles are straight; `opposite` has the cotangent
+/// opposite each half-edge.
+fn edge_weights(intrinsic: &IntrinsicTriangulation, opposite: &[f64], edge: usize) -> Option<EdgeWeights<f64>> {
     let ends = intrinsic.ends(edge)?;
-    let apex = |h: usize| {
-        let face = intrinsic.face(h);
-        let ring = intrinsic.half_edges(face);
-        let corner = if ring[1] == h {
-            0
-        } else if ring[2] == h {
-            1
-        } else {
-            2
-        };
-        (face, corner)
-    };
-    let cotangents = intrinsic.sides(edge).map(|h| shapes[apex(h).0].cotangents[apex(h).1]);
+    let cotangents = intrinsic.sides(edge).map(|h| opposite[h]);
     let mut weight = cotangents.clone().fold(0.0, |sum, cotangent| sum + 0.5 * cotangent);
     if intrinsic.sides(edge).all(|h| intrinsic.is_straight(intrinsic.face(h))) {
         let exact = || {
             let at = |v: usize| intrinsic.surface().positions()[v];
-            let apexes: Vec<_> = intrinsic.sides(edge).map(|h| at(intrinsic.corners(apex(h).0)[apex(h).1])).collect();
+            let apexes: Vec<_> = intrinsic.sides(edge).map(|h| at(intrinsic.apex(h))).collect();
             delaunay::cotangent_sum_sign(at(ends[0]), at(ends[1]), &apexes).unwrap_or(Ordering::Equal)
         };
         weight = with_sign(weight, delaunay::clear_sign(cotangents).unwrap_or_else(exact));

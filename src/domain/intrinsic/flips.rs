@@ -48,11 +48,13 @@ impl IntrinsicTriangulation<'_> {
         if f == NONE || g == NONE || f == g {
             return None;
         }
+        let sign = if self.touched[edge] { None } else { known(edge) };
+        if sign.is_some_and(|sign| sign != Ordering::Less) {
+            return None;
+        }
         let straight = self.is_straight(f) && self.is_straight(g);
-        let untouched = self.source(f).and(self.source(g)).is_some();
-        let sign = || if untouched { known(edge) } else { None };
         let violated = match straight {
-            true => sign().unwrap_or_else(|| self.exact_sign(edge)) == Ordering::Less,
+            true => sign.unwrap_or_else(|| self.exact_sign(edge)) == Ordering::Less,
             false => self.is_clearly_negative(edge),
         };
         if !violated {
@@ -151,6 +153,7 @@ impl IntrinsicTriangulation<'_> {
         let straight = self.is_planar();
         self.faces[left] = Face { first: h, doubled_area: flipped.areas[0], straight, source: NONE };
         self.faces[right] = Face { first: t, doubled_area: flipped.areas[1], straight, source: NONE };
+        [edge, bc / 2, ca / 2, ad / 2, db / 2].into_iter().for_each(|e| self.touched[e] = true);
         self.length[edge] = flipped.length;
         self.flips += 1;
     }
