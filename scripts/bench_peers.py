@@ -30,6 +30,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from itertools import product
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 EXAMPLE = ROOT / "target" / "release" / "examples" / "bench_operators"
@@ -37,6 +38,9 @@ OUT = ROOT / "reports" / "bench"
 OURS = "lapjury"
 # The library that ratios are over, and what each of our tasks is compared with.
 REFERENCE = "libigl"
+PLACES = (("plane", False), ("space", True))
+# Flips are made one by one; a million vertices would take longer to make than to measure.
+LARGEST_FLIPPED = 100_000
 TASKS = {
     "cotan": {OURS: ["cotan", "cotan+topology"], "peers": ["libigl", "potpourri3d", "LaPy"], "as": "cotan"},
     "intrinsic": {OURS: ["intrinsic", "intrinsic+topology"], "peers": ["libigl", "robust_laplacian"], "as": "intrinsic"},
@@ -312,30 +316,34 @@ def main():
         sys.exit("build our side first: cargo build --release --bin lapjury --example bench_operators")
     sizes = [int(n) for n in arguments.sizes.split(",")][: 1 if arguments.quick else None]
     repeats, tasks = (2 if arguments.quick else arguments.repeats), arguments.tasks.split(",")
+    counts = [int(t) for t in arguments.threads.split(",")]
     available, rows = installed(sorted({p for spec in TASKS.values() for p in spec["peers"]})), []
     print("beside " + ", ".join(f"{library} {version(library)}" for library in available))
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
         for n in sizes:
-            for name, curved in (("plane", False), ("space", True)):
-                mesh, vertices = save(f"{name}-{n}", grid(n, curved), folder)
-                for task in (t for t in tasks if t != "intrinsic"):
-                    for threads in map(int, arguments.threads.split(",")):
-                        rows += compare(name, mesh, vertices, task, threads, repeats, available)
-        for n in (n for n in sizes if n <= 100_000 and "intrinsic" in tasks):
-            for name, curved in (("plane", False), ("space", True)):
-                mesh, vertices = save(f"flipped-{name}-{n}", flipped(n, curved, folder), folder)
-                for threads in map(int, arguments.threads.split(",")):
+            meshes = [(name, *save(f"{name}-{n}", grid(n, curved), folder)) for name, curved in PLACES]
+            for task, threads in product((t for t in tasks if t != "intrinsic"), counts):
+                for name, mesh, vertices in meshes:
+                    rows += compare(name, mesh, vertices, task, threads, repeats, available)
+            if n <= LARGEST_FLIPPED and "intrinsic" in tasks:
+                meshes = [(name, *save(f"flipped-{name}-{n}", flipped(n, curved, folder), folder)) for name, curved in PLACES]
+                for threads, (name, mesh, vertices) in product(counts, meshes):
                     rows += compare(name, mesh, vertices, "intrinsic", threads, repeats, available)
-    if arguments.quick:
-        return
+            if not arguments.quick:
+                write(rows)
+    if not arguments.quick:
+        plot(rows, OUT / "peers.svg")
+
+
+def write(rows):
+    """The table, as far as it has come."""
     OUT.mkdir(parents=True, exist_ok=True)
     with open(OUT / "peers.csv", "w", newline="") as file:
         names = list(dict.fromkeys(key for row in rows for key in row))
         table = csv.DictWriter(file, names, lineterminator="\n")
         table.writeheader()
         table.writerows({k: f"{v:.6g}" if isinstance(v, float) else v for k, v in row.items()} for row in rows)
-    plot(rows, OUT / "peers.svg")
 
 
 if __name__ == "__main__":
