@@ -63,7 +63,7 @@ fn cot(surface: &Surface, edge: usize) -> f64 {
 }
 
 fn third(surface: &Surface, vertex: usize) -> f64 {
-    surface.topology().star(vertex).iter().map(|&(f, _)| surface.face_area(f) / 3.0).sum()
+    surface.topology().star(vertex).iter().map(|c| surface.face_area(c.face()) / 3.0).sum()
 }
 
 fn length(surface: &Surface, edge: usize) -> f64 {
@@ -133,7 +133,7 @@ fn a_weight_that_depends_on_indices_fails_perm() {
     let cornered = |d: &Domain| {
         assembled(
             d,
-            |s, e| cot(s, e) * if s.faces()[s.topology().sides(e)[0].face][0] % 2 == 0 { 1.0 } else { 1.1 },
+            |s, e| cot(s, e) * if s.faces()[s.topology().sides(e)[0].face()][0] % 2 == 0 { 1.0 } else { 1.1 },
             third,
         )
     };
@@ -188,8 +188,8 @@ fn a_weight_that_looks_two_rings_away_fails_reach() {
     let near = |s: &Surface, e: usize| -> BTreeSet<usize> {
         let ends = s.topology().edges()[e];
         let one: BTreeSet<usize> =
-            ends.iter().flat_map(|&v| s.topology().star(v).iter().flat_map(|&(f, _)| s.faces()[f].clone())).collect();
-        one.iter().flat_map(|&v| s.topology().star(v).iter().flat_map(|&(f, _)| s.faces()[f].clone())).collect()
+            ends.iter().flat_map(|&v| s.topology().star(v).iter().flat_map(|c| s.faces()[c.face()].to_vec())).collect();
+        one.iter().flat_map(|&v| s.topology().star(v).iter().flat_map(|c| s.faces()[c.face()].to_vec())).collect()
     };
     let wide = move |d: &Domain| {
         assembled(d, |s, e| cot(s, e) + 1e-6 * near(s, e).iter().map(|&v| s.point(v).norm()).sum::<f64>(), third)

@@ -183,7 +183,7 @@ fn mesh(shown: &Shown) -> String {
     for (i, p) in shown.domain.positions().unwrap_or_default().iter().enumerate() {
         text += &format!("  vertex {i}: {} {} {}\n", p[0], p[1], p[2]);
     }
-    for (f, face) in shown.domain.as_surface().map_or(&[][..], |s| s.faces()).iter().enumerate() {
+    for (f, face) in shown.domain.as_surface().into_iter().flat_map(|s| s.faces()).enumerate() {
         let corners: Vec<String> = face.iter().map(ToString::to_string).collect();
         text += &format!("  face {f}: {}\n", corners.join(" "));
     }

@@ -154,18 +154,25 @@ pub(super) fn quotient(corner: [[f64; 3]; 3]) -> Option<(Rational, Rational)> {
     (a.cmp_zero() != Ordering::Equal).then(|| (dot(&u, &v), a))
 }
 
-/// The floating-point answer where its error bound decides: cotangents are good to 1¼u, and adding up m of them costs m − 1 more
-/// of the magnitudes.
+/// The floating-point answer where its error bound decides.
 fn filtered(corners: &[[[f64; 3]; 3]]) -> Option<Ordering> {
-    let (mut sum, mut bound) = (0.0, 0.0);
-    for corner in corners {
+    clear_sign(corners.iter().map(|corner| {
         let [apex, p, q] = corner.map(Vec3::from);
-        let cot = geometry::cotangent(apex, p, q);
+        geometry::cotangent(apex, p, q)
+    }))
+}
+
+/// The sign of a sum of cotangents that [`geometry::cotangent`] computed, where their error bound decides it: each is good to
+/// 1¼u, and adding up m of them costs m − 1 more of the magnitudes.
+pub fn clear_sign(cotangents: impl Iterator<Item = f64>) -> Option<Ordering> {
+    let (mut sum, mut bound, mut count) = (0.0, 0.0, 0.0);
+    for cot in cotangents {
         sum += cot;
         bound += cot.abs();
+        count += 1.0;
     }
     // One u more covers the rounding of the bound; what underflows is not decided here.
-    let bound = (corners.len() as f64 + 2.0) * HALF_ULP * bound + f64::MIN_POSITIVE;
+    let bound = (count + 2.0) * HALF_ULP * bound + f64::MIN_POSITIVE;
     (sum.is_finite() && sum.abs() > bound).then(|| sum.cmp_zero())
 }
 

@@ -197,14 +197,30 @@ pub fn degenerate_faces(surface: &Surface) -> Vec<usize> {
         let far = f.iter().copied().find(|&v| at(v) != at(f[0])).unwrap_or(f[0]);
         f.iter().all(|&v| geometry::collinear(at(f[0]), at(far), at(v)))
     };
-    (0..surface.faces().len()).filter(|&f| flat(&surface.faces()[f])).collect()
+    surface.faces().iter().enumerate().filter(|(_, face)| flat(face)).map(|(f, _)| f).collect()
 }
 
+/// Of faces with the same corners one has the same smallest vertex as the other: only those around a vertex are compared.
 fn duplicate_faces(surface: &Surface) -> usize {
-    let mut sorted: Vec<Vec<usize>> = surface.faces().to_vec();
-    sorted.iter_mut().for_each(|f| f.sort_unstable());
-    sorted.sort_unstable();
-    sorted.windows(2).filter(|w| w[0] == w[1]).count()
+    let faces = surface.faces();
+    let mut sorted: Vec<Vec<usize>> = Vec::new();
+    let mut duplicates = 0;
+    for v in 0..surface.positions().len() {
+        let here = surface.topology().star(v).iter().map(|c| &faces[c.face()]);
+        let mut used = 0;
+        for face in here.filter(|f| f.iter().all(|&w| w >= v)) {
+            if used == sorted.len() {
+                sorted.push(Vec::new());
+            }
+            sorted[used].clear();
+            sorted[used].extend_from_slice(face);
+            sorted[used].sort_unstable();
+            used += 1;
+        }
+        sorted[..used].sort_unstable();
+        duplicates += sorted[..used].windows(2).filter(|w| w[0] == w[1]).count();
+    }
+    duplicates
 }
 
 fn angle_range(surface: &Surface) -> (f64, f64) {

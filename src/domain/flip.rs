@@ -103,9 +103,9 @@ impl Triangulation {
         let mut twins = vec![NONE; 3 * faces.len()];
         for edge in 0..topology.edges().len() {
             if let [s, t] = topology.sides(edge)
-                && s.forward != t.forward
+                && s.forward() != t.forward()
             {
-                let (h, g) = (3 * s.face + s.corner, 3 * t.face + t.corner);
+                let (h, g) = (3 * s.face() + s.corner(), 3 * t.face() + t.corner());
                 (twins[h], twins[g]) = (g, h);
             }
         }

@@ -58,7 +58,7 @@ pub fn cotangent_in_plane<S: Scalar>(apex: &[S; 2], p: &[S; 2], q: &[S; 2]) -> O
 
 /// The sign of the area of the triangle `abc` in the plane: `Greater` when counter-clockwise. Exact.
 pub fn orient2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Ordering {
-    if within_range(&[a, b, c].concat()) {
+    if within_range([a, b, c].as_flattened()) {
         let at = |p: [f64; 2]| Coord { x: p[0], y: p[1] };
         return robust::orient2d(at(a), at(b), at(c)).cmp_zero();
     }
@@ -68,7 +68,7 @@ pub fn orient2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Ordering {
 
 /// The sign of the volume of the tetrahedron `abcd`: `Equal` when coplanar. Exact.
 pub fn orient3d(a: [f64; 3], b: [f64; 3], c: [f64; 3], d: [f64; 3]) -> Ordering {
-    if within_range(&[a, b, c, d].concat()) {
+    if within_range([a, b, c, d].as_flattened()) {
         let at = |p: [f64; 3]| Coord3D { x: p[0], y: p[1], z: p[2] };
         return robust::orient3d(at(a), at(b), at(c), at(d)).cmp_zero();
     }
@@ -79,7 +79,7 @@ pub fn orient3d(a: [f64; 3], b: [f64; 3], c: [f64; 3], d: [f64; 3]) -> Ordering 
 
 /// Whether `d` is inside (`Greater`), on (`Equal`) or outside (`Less`) the circle through the counter-clockwise `abc`. Exact.
 pub fn incircle(a: [f64; 2], b: [f64; 2], c: [f64; 2], d: [f64; 2]) -> Ordering {
-    if within_range(&[a, b, c, d].concat()) {
+    if within_range([a, b, c, d].as_flattened()) {
         let at = |p: [f64; 2]| Coord { x: p[0], y: p[1] };
         return robust::incircle(at(a), at(b), at(c), at(d)).cmp_zero();
     }

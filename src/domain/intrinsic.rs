@@ -25,11 +25,16 @@
 
 mod flips;
 
+use rayon::prelude::*;
+
 use super::Surface;
 use super::geometry::{self, Vec3};
 
-/// "No half-edge": the outside of a boundary edge.
+/// "No half-edge": the outside of a boundary edge; no face.
 const NONE: usize = usize::MAX;
+
+/// How many triangles a thread takes at a time.
+const BLOCK: usize = 1 << 12;
 
 /// A triangulation of a surface by intrinsic edges. Edge e has the half-edges 2e and 2e + 1, running opposite ways.
 #[derive(Clone, Debug)]
@@ -41,6 +46,8 @@ pub struct IntrinsicTriangulation<'a> {
     face: Vec<usize>,
     length: Vec<f64>,
     faces: Vec<Face>,
+    /// Of each edge, whether a triangle beside it was touched by a flip.
+    touched: Vec<bool>,
     flips: usize,
 }
 
@@ -51,6 +58,8 @@ struct Face {
     doubled_area: f64,
     /// Whether it is the triangle that its corners span in space.
     straight: bool,
+    /// The face of the surface that it is; [`NONE`] once a flip has touched it.
+    source: usize,
 }
 
 /// Why a surface has no intrinsic triangulation.
@@ -101,48 +110,59 @@ impl<'a> IntrinsicTriangulation<'a> {
             face: vec![NONE; 2 * edges.len()],
             length: edges.iter().map(|&[a, b]| distance(surface.point(a), surface.point(b))).collect(),
             faces: Vec::with_capacity(surface.faces().len()),
+            touched: vec![false; edges.len()],
             flips: 0,
         };
         let rings = result.take_half_edges(keep)?;
-        for ring in rings {
-            let corners = ring.map(|h| surface.point(result.origin[h]));
-            result.push_face(ring, area_in_space(corners));
+        let kept = |source: &usize| rings[*source][0] != NONE;
+        let kept: Vec<usize> = (0..rings.len()).filter(kept).collect();
+        let area = |at: usize| {
+            let ring = rings[kept[at]];
+            // Opposite the corner where a half-edge starts is the half-edge that follows.
+            let lengths = [1, 2, 0].map(|k: usize| result.length[ring[k] / 2]);
+            area_with_lengths(ring.map(|h| surface.point(result.origin[h])), lengths)
+        };
+        let areas: Vec<f64> = match kept.len() {
+            few @ ..BLOCK => (0..few).map(area).collect(),
+            many => (0..many).into_par_iter().with_min_len(BLOCK).map(area).collect(),
+        };
+        for (source, area) in kept.into_iter().zip(areas) {
+            result.push_face(rings[source], area, source);
         }
         Ok(result)
     }
 
-    /// Sets the origin of each half-edge; returns those around each face.
+    /// Sets the origin of each half-edge; returns those around each face that is kept.
     fn take_half_edges(&mut self, keep: impl Fn(usize) -> bool) -> Result<Vec<[usize; 3]>, IntrinsicError> {
         let topology = self.surface.topology();
         let mut rings = vec![[NONE; 3]; self.surface.faces().len()];
         for (e, &[a, b]) in topology.edges().iter().enumerate() {
-            let sides = || topology.sides(e).iter().filter(|side| keep(side.face));
+            let sides = || topology.sides(e).iter().filter(|side| keep(side.face()));
             if sides().count() > 2 {
                 return Err(IntrinsicError::NonManifold { a, b, faces: sides().count() });
             }
             for side in sides() {
-                let corners = self.surface.faces()[side.face].len();
+                let corners = self.surface.faces()[side.face()].len();
                 if corners != 3 {
-                    return Err(IntrinsicError::NotATriangle { face: side.face, corners });
+                    return Err(IntrinsicError::NotATriangle { face: side.face(), corners });
                 }
-                let h = 2 * e + usize::from(!side.forward);
+                let h = 2 * e + usize::from(!side.forward());
                 if self.origin[h] != NONE {
                     return Err(IntrinsicError::NotOrientable { a, b });
                 }
-                self.origin[h] = if side.forward { a } else { b };
-                rings[side.face][side.corner] = h;
+                self.origin[h] = if side.forward() { a } else { b };
+                rings[side.face()][side.corner()] = h;
             }
         }
-        rings.retain(|ring| ring[0] != NONE);
         Ok(rings)
     }
 
-    fn push_face(&mut self, ring: [usize; 3], doubled_area: f64) {
+    fn push_face(&mut self, ring: [usize; 3], doubled_area: f64, source: usize) {
         for k in 0..3 {
             self.next[ring[k]] = ring[(k + 1) % 3];
             self.face[ring[k]] = self.faces.len();
         }
-        self.faces.push(Face { first: ring[0], doubled_area, straight: true });
+        self.faces.push(Face { first: ring[0], doubled_area, straight: true, source });
     }
 
     /// The surface.
@@ -161,14 +181,19 @@ impl<'a> IntrinsicTriangulation<'a> {
     }
 
     /// The half-edges of an edge that have a triangle: two inside, one on the boundary, none where no face was kept.
-    pub fn sides(&self, edge: usize) -> impl Iterator<Item = usize> + '_ {
+    pub fn sides(&self, edge: usize) -> impl Iterator<Item = usize> + Clone + '_ {
         [2 * edge, 2 * edge + 1].into_iter().filter(|&h| self.face[h] != NONE)
     }
 
     /// The ends of an edge, equal for a loop; `None` for an edge of the surface none of whose faces was kept.
     pub fn ends(&self, edge: usize) -> Option<[usize; 2]> {
-        let h = self.sides(edge).next()?;
-        Some([self.origin[h], self.origin[self.next[h]]])
+        let (h, t) = (2 * edge, 2 * edge + 1);
+        match (self.face[h] != NONE, self.face[t] != NONE) {
+            (true, true) => Some([self.origin[h], self.origin[t]]),
+            (true, false) => Some([self.origin[h], self.origin[self.next[h]]]),
+            (false, true) => Some([self.origin[t], self.origin[self.next[t]]]),
+            (false, false) => None,
+        }
     }
 
     /// The length of an edge.
@@ -197,6 +222,11 @@ impl<'a> IntrinsicTriangulation<'a> {
         self.half_edges(face).map(|h| self.origin[h])
     }
 
+    /// The vertex opposite a half-edge that has a triangle.
+    pub fn apex(&self, half_edge: usize) -> usize {
+        self.origin[self.next[self.next[half_edge]]]
+    }
+
     /// Twice the area of a triangle.
     pub fn doubled_area(&self, face: usize) -> f64 {
         self.faces[face].doubled_area
@@ -204,7 +234,12 @@ impl<'a> IntrinsicTriangulation<'a> {
 
     /// Whether the triangle is the one that its corners span in space, so that positions give its metric.
     pub fn is_straight(&self, face: usize) -> bool {
-        self.faces[face].straight
+        self.is_planar() || self.faces[face].straight
+    }
+
+    /// The face of the surface that a triangle is, corner for corner; `None` once a flip has touched it.
+    pub fn source(&self, face: usize) -> Option<usize> {
+        Some(self.faces[face].source).filter(|&source| source != NONE)
     }
 
     /// Whether the surface lies in a coordinate plane: then every triangle stays straight and every decision is exact.
@@ -234,7 +269,12 @@ fn distance(p: Vec3, q: Vec3) -> f64 {
 }
 
 fn area_in_space(corners: [Vec3; 3]) -> f64 {
-    let length = |k: usize| distance(corners[(k + 1) % 3], corners[(k + 2) % 3]);
+    area_with_lengths(corners, [0, 1, 2].map(|k: usize| distance(corners[(k + 1) % 3], corners[(k + 2) % 3])))
+}
+
+/// Twice the area; the lengths are those opposite the corners.
+fn area_with_lengths(corners: [Vec3; 3], lengths: [f64; 3]) -> f64 {
+    let length = |k: usize| lengths[k];
     // Most accurate from the corner opposite the longest side, whose sine is the largest.
     let apex = (1..3).fold(0, |best, k| if length(k) > length(best) { k } else { best });
     geometry::doubled_area_in_space(corners[apex], corners[(apex + 1) % 3], corners[(apex + 2) % 3])

@@ -6,6 +6,7 @@
 pub mod cotangent;
 pub mod delaunay;
 mod digest;
+pub mod faces;
 mod facts;
 pub mod flip;
 pub mod geometry;
@@ -17,6 +18,7 @@ pub mod topology;
 mod twofold;
 mod volume;
 
+pub use faces::Faces;
 pub use facts::{Facts, SurfaceFacts};
 pub use graph::Graph;
 pub use points::PointCloud;
@@ -97,6 +99,15 @@ pub enum DomainError {
         vertex: usize,
         /// How many vertices there are.
         vertices: usize,
+    },
+    /// More corners than the connectivity can number.
+    #[error(
+        "the faces have {corners} corners in all; at most {} can be numbered, split the mesh",
+        topology::Topology::MOST_CORNERS
+    )]
+    TooManyCorners {
+        /// How many there are.
+        corners: usize,
     },
     /// An element with too few corners.
     #[error("face {face} has {corners} corners; a face needs at least 3")]

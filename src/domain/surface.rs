@@ -1,8 +1,10 @@
 //! Triangle and polygon meshes in the plane or in space.
 
+use std::sync::OnceLock;
+
 use super::geometry::{self, Vec3};
 use super::topology::{self, Orientation, Topology};
-use super::{DomainError, check_coordinates, check_corners};
+use super::{DomainError, Faces, check_coordinates, check_corners};
 use crate::scalar::Scalar;
 
 /// A polygon mesh: positions and faces, with their connectivity.
@@ -17,10 +19,12 @@ use crate::scalar::Scalar;
 #[derive(Clone, Debug)]
 pub struct Surface {
     positions: Vec<[f64; 3]>,
-    faces: Vec<Vec<usize>>,
+    faces: Faces,
     topology: Topology,
     orientation: Orientation,
     notices: Vec<String>,
+    /// Found when first asked for.
+    plane: OnceLock<Option<[usize; 2]>>,
 }
 
 impl Surface {
@@ -28,8 +32,20 @@ impl Surface {
     ///
     /// # Errors
     /// A coordinate that is not finite, an index out of range, a face with fewer than three corners or a repeated one.
-    pub fn new(positions: Vec<[f64; 3]>, mut faces: Vec<Vec<usize>>) -> Result<Self, DomainError> {
+    pub fn new(positions: Vec<[f64; 3]>, faces: Vec<Vec<usize>>) -> Result<Self, DomainError> {
+        Surface::from_faces(positions, faces.iter().collect())
+    }
+
+    /// The same from faces in one list; see [`Surface::new`].
+    ///
+    /// # Errors
+    /// As [`Surface::new`].
+    pub fn from_faces(positions: Vec<[f64; 3]>, mut faces: Faces) -> Result<Self, DomainError> {
         check_coordinates(&positions)?;
+        let corners = faces.corners().len();
+        if corners > Topology::MOST_CORNERS {
+            return Err(DomainError::TooManyCorners { corners });
+        }
         for (face, corners) in faces.iter().enumerate() {
             if corners.len() < 3 {
                 return Err(DomainError::TooFewCorners { face, corners: corners.len() });
@@ -51,7 +67,7 @@ impl Surface {
         if !orientation.orientable {
             notices.push("some component cannot be oriented; its faces are left as they came".into());
         }
-        Ok(Surface { positions, faces, topology, orientation, notices })
+        Ok(Surface { positions, faces, topology, orientation, notices, plane: OnceLock::new() })
     }
 
     /// A triangle mesh; see [`Surface::new`].
@@ -59,7 +75,7 @@ impl Surface {
     /// # Errors
     /// As [`Surface::new`].
     pub fn triangles(positions: Vec<[f64; 3]>, faces: &[[usize; 3]]) -> Result<Self, DomainError> {
-        Surface::new(positions, faces.iter().map(|f| f.to_vec()).collect())
+        Surface::from_faces(positions, Faces::triangles(faces))
     }
 
     /// A triangle mesh in the plane, z = 0; see [`Surface::new`].
@@ -80,7 +96,7 @@ impl Surface {
             return Err(DomainError::WrongLength { what: "positions", found, expected, of: "vertices" });
         }
         check_coordinates(&positions)?;
-        Ok(Surface { positions, ..self.clone() })
+        Ok(Surface { positions, plane: OnceLock::new(), ..self.clone() })
     }
 
     /// Adds a notice about where the surface came from (welded vertices, dropped records, …).
@@ -100,7 +116,7 @@ impl Surface {
     }
 
     /// The faces, each as the list of its corners.
-    pub fn faces(&self) -> &[Vec<usize>] {
+    pub fn faces(&self) -> &Faces {
         &self.faces
     }
 
@@ -121,17 +137,17 @@ impl Surface {
 
     /// Whether every face is a triangle.
     pub fn is_triangulated(&self) -> bool {
-        self.faces.iter().all(|f| f.len() == 3)
+        self.faces.are_triangles()
     }
 
     /// The corners of a triangle. `None` if the face has more than three.
     pub fn triangle(&self, face: usize) -> Option<[usize; 3]> {
-        <[usize; 3]>::try_from(self.faces[face].as_slice()).ok()
+        <[usize; 3]>::try_from(&self.faces[face]).ok()
     }
 
     /// The vertices opposite an edge in the triangles beside it, with their faces. Polygons with more corners have none.
     pub fn opposite(&self, edge: usize) -> Vec<(usize, usize)> {
-        let third = |s: &topology::Side| self.triangle(s.face).map(|t| (s.face, t[(s.corner + 2) % 3]));
+        let third = |s: &topology::Side| self.triangle(s.face()).map(|t| (s.face(), t[(s.corner() + 2) % 3]));
         self.topology.sides(edge).iter().filter_map(third).collect()
     }
 
@@ -140,6 +156,10 @@ impl Surface {
     ///
     /// With these axes the mesh is flat and unfolded, so that coordinates are linear functions in the sense of LIN.
     pub fn plane(&self) -> Option<[usize; 2]> {
+        *self.plane.get_or_init(|| self.find_plane())
+    }
+
+    fn find_plane(&self) -> Option<[usize; 2]> {
         let constant = |axis: usize| self.positions.windows(2).all(|w| w[0][axis] == w[1][axis]);
         let normal = [2, 0, 1].into_iter().find(|&axis| constant(axis))?;
         let axes = [(normal + 1) % 3, (normal + 2) % 3];
@@ -179,7 +199,7 @@ impl Surface {
     pub fn face_area(&self, face: usize) -> f64 {
         let corners = &self.faces[face];
         let origin = self.point(corners[0]);
-        if let &[_, b, c] = corners.as_slice() {
+        if let &[_, b, c] = corners {
             return 0.5 * geometry::doubled_area_in_space(origin, self.point(b), self.point(c));
         }
         let edges: Vec<Vec3> = corners[1..].iter().map(|&v| self.point(v) - origin).collect();

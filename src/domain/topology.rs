@@ -1,75 +1,149 @@
 //! Edges, their sides, components, boundary and orientation of a list of faces.
 
-use std::collections::BTreeMap;
+use rayon::prelude::*;
 
-/// One side of an edge: the face that lies there and the corner of that face at which the edge starts.
+use super::Faces;
+
+/// One side of an edge: the face that lies there and the corner of that face at which the edge starts. Eight bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Side {
+    face: u32,
+    /// Twice the corner, plus one where the face runs from the smaller vertex to the larger.
+    corner_and_direction: u32,
+}
+
+impl Side {
     /// The face.
-    pub face: usize,
+    pub fn face(self) -> usize {
+        self.face as usize
+    }
+
     /// The edge runs from this corner of the face to the next one.
-    pub corner: usize,
+    pub fn corner(self) -> usize {
+        (self.corner_and_direction / 2) as usize
+    }
+
     /// Whether the face runs along the edge from its smaller to its larger vertex.
-    pub forward: bool,
+    pub fn forward(self) -> bool {
+        self.corner_and_direction % 2 == 1
+    }
+}
+
+/// A face around a vertex: which, and with which of its corners. Eight bytes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Corner {
+    face: u32,
+    corner: u32,
+}
+
+impl Corner {
+    /// The face.
+    pub fn face(self) -> usize {
+        self.face as usize
+    }
+
+    /// The corner at which the vertex sits.
+    pub fn corner(self) -> usize {
+        self.corner as usize
+    }
+
+    /// The vertices after and before this one around the face.
+    pub fn neighbours(self, faces: &Faces) -> [usize; 2] {
+        let (corners, k) = (&faces[self.face()], self.corner());
+        [corners[if k + 1 == corners.len() { 0 } else { k + 1 }], corners[if k == 0 { corners.len() } else { k } - 1]]
+    }
 }
 
 /// The connectivity of a list of faces: edges with the faces beside them, boundary, manifoldness.
+///
+/// # Memory
+/// 16 + 4 bytes an edge, 16 a corner and 9 a vertex: with E = 3n and 6n corners on a triangle mesh of n vertices, 165 n.
 #[derive(Clone, Debug)]
 pub struct Topology {
     edges: Vec<[usize; 2]>,
-    side_offsets: Vec<usize>,
+    side_offsets: Vec<u32>,
     sides: Vec<Side>,
     boundary_vertices: Vec<bool>,
     star_offsets: Vec<usize>,
-    star: Vec<(usize, usize)>,
+    star: Vec<Corner>,
+}
+
+/// How many vertices a thread takes at a time; what depends on it is only who does which.
+const BLOCK: usize = 1 << 13;
+
+/// The edges from the vertices of a block to larger ones, how many sides each has, and the sides.
+#[derive(Default)]
+struct Block {
+    edges: Vec<[usize; 2]>,
+    counts: Vec<u32>,
+    sides: Vec<Side>,
 }
 
 impl Topology {
-    /// Reads the connectivity off the faces. Cost: O(n + F log valence).
-    pub fn new(vertices: usize, faces: &[Vec<usize>]) -> Self {
-        let mut by_low: Vec<Vec<(usize, Side)>> = vec![Vec::new(); vertices];
-        for (face, corners) in faces.iter().enumerate() {
-            for (corner, &a) in corners.iter().enumerate() {
-                let b = corners[(corner + 1) % corners.len()];
-                by_low[a.min(b)].push((a.max(b), Side { face, corner, forward: a < b }));
-            }
-        }
-        let (mut edges, mut sides, mut side_offsets) = (Vec::new(), Vec::new(), vec![0]);
-        for (low, list) in by_low.iter_mut().enumerate() {
-            list.sort_by_key(|&(high, side)| (high, side.face, side.corner));
-            for &(high, side) in list.iter() {
-                if edges.last() != Some(&[low, high]) {
-                    if !edges.is_empty() {
-                        side_offsets.push(sides.len());
+    /// The largest number of corners, over all faces together, that the connectivity can number.
+    pub const MOST_CORNERS: usize = u32::MAX as usize / 2;
+
+    /// Reads the connectivity off the faces, in parallel over vertices: each finds among the faces around it the edges to larger
+    /// vertices. Cost: O(n + F log valence).
+    ///
+    /// # Panics
+    /// If a vertex is out of range or there are more than [`MOST_CORNERS`](Topology::MOST_CORNERS) corners: callers check both
+    /// where faces enter the program.
+    pub fn new(vertices: usize, faces: &Faces) -> Self {
+        assert!(faces.corners().len() <= Topology::MOST_CORNERS, "too many corners to number");
+        let (star_offsets, star) = stars(vertices, faces);
+        let around = |v: usize| &star[star_offsets[v]..star_offsets[v + 1]];
+        let block = |range: std::ops::Range<usize>, mut block: Block| {
+            let mut found: Vec<(usize, Side)> = Vec::new();
+            for low in range {
+                edges_upward(low, around(low), faces, &mut found);
+                for &(high, side) in &found {
+                    match (block.edges.last(), block.counts.last_mut()) {
+                        (Some(&last), Some(count)) if last == [low, high] => *count += 1,
+                        _ => {
+                            block.edges.push([low, high]);
+                            block.counts.push(1);
+                        }
                     }
-                    edges.push([low, high]);
+                    block.sides.push(side);
                 }
-                sides.push(side);
             }
+            block
+        };
+        let corners = faces.corners().len();
+        let blocks: Vec<Block> = if vertices <= BLOCK || rayon::current_num_threads() == 1 {
+            // Euler: a closed triangle mesh has half as many edges as corners, and one with a boundary a few more.
+            let (edges, counts) = (Vec::with_capacity(corners / 2 + 1), Vec::with_capacity(corners / 2 + 1));
+            vec![block(0..vertices, Block { edges, counts, sides: Vec::with_capacity(corners) })]
+        } else {
+            let range = |k: usize| k * BLOCK..vertices.min((k + 1) * BLOCK);
+            (0..vertices.div_ceil(BLOCK)).into_par_iter().map(|k| block(range(k), Block::default())).collect()
+        };
+        let count: usize = blocks.iter().map(|b| b.edges.len()).sum();
+        let (mut edges, mut sides) = (Vec::new(), Vec::new());
+        if blocks.len() > 1 {
+            edges.reserve_exact(count);
+            sides.reserve_exact(corners);
         }
-        if !edges.is_empty() {
-            side_offsets.push(sides.len());
-        }
+        let mut side_offsets = Vec::with_capacity(count + 1);
+        side_offsets.push(0);
         let mut boundary_vertices = vec![false; vertices];
-        for (e, &[a, b]) in edges.iter().enumerate() {
-            if side_offsets[e + 1] - side_offsets[e] == 1 {
-                boundary_vertices[a] = true;
-                boundary_vertices[b] = true;
+        let mut end = 0;
+        for block in blocks {
+            for (&[a, b], &count) in block.edges.iter().zip(&block.counts) {
+                end += count;
+                side_offsets.push(end);
+                if count == 1 {
+                    boundary_vertices[a] = true;
+                    boundary_vertices[b] = true;
+                }
             }
-        }
-        let mut star_offsets = vec![0; vertices + 1];
-        for &v in faces.iter().flatten() {
-            star_offsets[v + 1] += 1;
-        }
-        for v in 0..vertices {
-            star_offsets[v + 1] += star_offsets[v];
-        }
-        let mut next = star_offsets.clone();
-        let mut star = vec![(0, 0); star_offsets[vertices]];
-        for (face, corners) in faces.iter().enumerate() {
-            for (corner, &v) in corners.iter().enumerate() {
-                star[next[v]] = (face, corner);
-                next[v] += 1;
+            // The first is kept as it is, if nothing is to come after it.
+            if edges.capacity() == 0 {
+                (edges, sides) = (block.edges, block.sides);
+            } else {
+                edges.extend(block.edges);
+                sides.extend(block.sides);
             }
         }
         Topology { edges, side_offsets, sides, boundary_vertices, star_offsets, star }
@@ -87,7 +161,7 @@ impl Topology {
 
     /// The faces beside an edge: one on the boundary, two inside, more where the surface is not a manifold.
     pub fn sides(&self, edge: usize) -> &[Side] {
-        &self.sides[self.side_offsets[edge]..self.side_offsets[edge + 1]]
+        &self.sides[self.side_offsets[edge] as usize..self.side_offsets[edge + 1] as usize]
     }
 
     /// Whether exactly one face lies at the edge.
@@ -101,7 +175,7 @@ impl Topology {
     }
 
     /// The faces around a vertex, each with the corner at which the vertex sits, in face order.
-    pub fn star(&self, vertex: usize) -> &[(usize, usize)] {
+    pub fn star(&self, vertex: usize) -> &[Corner] {
         &self.star[self.star_offsets[vertex]..self.star_offsets[vertex + 1]]
     }
 
@@ -123,24 +197,68 @@ impl Topology {
 
     /// The vertices whose faces form more than one fan, counting faces as joined when they share an edge at the vertex.
     /// Ends of non-manifold edges are not listed for that reason alone.
-    pub fn non_manifold_vertices(&self, faces: &[Vec<usize>]) -> Vec<usize> {
-        (0..self.boundary_vertices.len()).filter(|&v| self.fans(v, faces) > 1).collect()
+    pub fn non_manifold_vertices(&self, faces: &Faces) -> Vec<usize> {
+        let (mut ends, mut union) = (Vec::new(), Union(Vec::new()));
+        (0..self.boundary_vertices.len()).filter(|&v| self.fans(v, faces, &mut ends, &mut union) > 1).collect()
     }
 
-    fn fans(&self, vertex: usize, faces: &[Vec<usize>]) -> usize {
+    /// The number of fans around a vertex; `ends` and `union` are working memory.
+    fn fans(&self, vertex: usize, faces: &Faces, ends: &mut Vec<(usize, usize)>, union: &mut Union) -> usize {
         let star = self.star(vertex);
-        let mut joined_at: BTreeMap<usize, usize> = BTreeMap::new();
-        let mut union = Union::new(star.len());
-        for (at, &(face, corner)) in star.iter().enumerate() {
-            let corners = &faces[face];
-            for neighbour in
-                [corners[(corner + 1) % corners.len()], corners[(corner + corners.len() - 1) % corners.len()]]
-            {
-                let first = *joined_at.entry(neighbour).or_insert(at);
-                union.join(first, at);
-            }
-        }
+        ends.clear();
+        ends.extend(star.iter().enumerate().flat_map(|(at, c)| c.neighbours(faces).map(|neighbour| (neighbour, at))));
+        ends.sort_unstable();
+        union.0.clear();
+        union.0.extend(0..star.len());
+        ends.windows(2).filter(|w| w[0].0 == w[1].0).for_each(|w| union.join(w[0].1, w[1].1));
         (0..star.len()).filter(|&at| union.root(at) == at).count()
+    }
+}
+
+/// The corners around each vertex, in face order, and where those of each vertex begin.
+fn stars(vertices: usize, faces: &Faces) -> (Vec<usize>, Vec<Corner>) {
+    let mut offsets = vec![0; vertices + 1];
+    for &v in faces.corners() {
+        offsets[v + 1] += 1;
+    }
+    for v in 0..vertices {
+        offsets[v + 1] += offsets[v];
+    }
+    let mut next = offsets.clone();
+    let mut star = vec![Corner { face: 0, corner: 0 }; faces.corners().len()];
+    for (face, corners) in faces.iter().enumerate() {
+        for (corner, &v) in corners.iter().enumerate() {
+            star[next[v]] = Corner { face: face as u32, corner: corner as u32 };
+            next[v] += 1;
+        }
+    }
+    (offsets, star)
+}
+
+/// The edges from a vertex to larger ones with a side for each face, in order of the larger vertex, the face, the corner.
+fn edges_upward(low: usize, star: &[Corner], faces: &Faces, found: &mut Vec<(usize, Side)>) {
+    found.clear();
+    for &at in star {
+        let [next, previous] = at.neighbours(faces);
+        if next > low {
+            found.push((next, Side { face: at.face, corner_and_direction: 2 * at.corner + 1 }));
+        }
+        if previous > low {
+            let corner = if at.corner == 0 { faces[at.face()].len() as u32 } else { at.corner } - 1;
+            found.push((previous, Side { face: at.face, corner_and_direction: 2 * corner }));
+        }
+    }
+    // An insertion sort: the lists are short.
+    let key = |&(high, side): &(usize, Side)| (high, side.face, side.corner_and_direction / 2);
+    if found.len() > 32 {
+        return found.sort_unstable_by_key(key);
+    }
+    for k in 1..found.len() {
+        let mut at = k;
+        while at > 0 && key(&found[at - 1]) > key(&found[at]) {
+            found.swap(at - 1, at);
+            at -= 1;
+        }
     }
 }
 
@@ -197,20 +315,21 @@ pub struct Orientation {
 
 /// Turns faces round until neighbours across two-sided edges agree, the minority of each component first; leaves a
 /// component that cannot be oriented as it was.
-pub fn orient(faces: &mut [Vec<usize>], topology: &Topology) -> Orientation {
-    let mut neighbours: Vec<Vec<(usize, bool)>> = vec![Vec::new(); faces.len()];
-    let mut ill = 0;
-    for e in 0..topology.edges().len() {
-        if let [a, b] = topology.sides(e) {
-            let disagree = a.forward == b.forward;
-            ill += usize::from(disagree);
-            neighbours[a.face].push((b.face, disagree));
-            neighbours[b.face].push((a.face, disagree));
-        }
-    }
+pub fn orient(faces: &mut Faces, topology: &Topology) -> Orientation {
+    let pair = |e: usize| match topology.sides(e) {
+        &[a, b] => Some((a.face(), b.face(), a.forward() == b.forward())),
+        _ => None,
+    };
+    let pairs = || (0..topology.edges().len()).filter_map(pair);
+    let ill = pairs().filter(|&(_, _, disagree)| disagree).count();
     let mut result = Orientation { orientable: true, ill_oriented_edges: ill, flipped_faces: 0 };
     if ill == 0 {
         return result;
+    }
+    let mut neighbours: Vec<Vec<(usize, bool)>> = vec![Vec::new(); faces.len()];
+    for (f, g, disagree) in pairs() {
+        neighbours[f].push((g, disagree));
+        neighbours[g].push((f, disagree));
     }
     let mut turn: Vec<Option<bool>> = vec![None; faces.len()];
     for seed in 0..faces.len() {
@@ -238,7 +357,7 @@ pub fn orient(faces: &mut [Vec<usize>], topology: &Topology) -> Orientation {
         result.orientable &= consistent;
         if consistent {
             for &face in component.iter().filter(|&&f| turn[f] == Some(minority)) {
-                faces[face].reverse();
+                faces.reverse(face);
                 result.flipped_faces += 1;
             }
         }
@@ -248,12 +367,56 @@ pub fn orient(faces: &mut [Vec<usize>], topology: &Topology) -> Orientation {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeMap;
+
     use super::*;
 
-    fn topology(n: usize, faces: &[[usize; 3]]) -> (Vec<Vec<usize>>, Topology) {
-        let faces: Vec<Vec<usize>> = faces.iter().map(|f| f.to_vec()).collect();
+    fn topology(n: usize, faces: &[[usize; 3]]) -> (Faces, Topology) {
+        let faces = Faces::triangles(faces);
         let t = Topology::new(n, &faces);
         (faces, t)
+    }
+
+    /// Edges and sides by a sorted map over all faces: another way than star by star.
+    fn by_map(faces: &Faces) -> BTreeMap<[usize; 2], Vec<(usize, usize, bool)>> {
+        let mut map: BTreeMap<_, Vec<_>> = BTreeMap::new();
+        for (face, corners) in faces.iter().enumerate() {
+            for (corner, &a) in corners.iter().enumerate() {
+                let b = corners[(corner + 1) % corners.len()];
+                map.entry([a.min(b), a.max(b)]).or_default().push((face, corner, a < b));
+            }
+        }
+        map
+    }
+
+    #[test]
+    fn stars_find_the_edges_and_sides_of_a_map_where_many_faces_share_them_and_on_any_number_of_threads() {
+        let mut state = 1_u64;
+        let mut below = |n: usize| {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (state >> 33) as usize % n
+        };
+        for (n, count) in [(5, 40), (12, 200), (200, 150), (3 * BLOCK, 9 * BLOCK)] {
+            // Triangles, quadrilaterals and pentagons of neighbouring numbers, the larger of them with many faces an edge.
+            let face = |_| {
+                let (first, corners) = (below(n - 4), 3 + below(3));
+                let mut face: Vec<usize> = (first..first + corners).collect();
+                let turn = below(corners);
+                face.rotate_left(turn);
+                if below(2) == 0 { face.into_iter().rev().collect() } else { face }
+            };
+            let faces: Faces = (0..count).map(face).collect::<Vec<Vec<usize>>>().iter().collect();
+            let expected = by_map(&faces);
+            for threads in [1, 2, 4] {
+                let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+                let t = pool.install(|| Topology::new(n, &faces));
+                assert_eq!(t.edges(), expected.keys().copied().collect::<Vec<_>>());
+                for (e, sides) in expected.values().enumerate() {
+                    let found: Vec<_> = t.sides(e).iter().map(|s| (s.face(), s.corner(), s.forward())).collect();
+                    assert_eq!(found, *sides);
+                }
+            }
+        }
     }
 
     #[test]

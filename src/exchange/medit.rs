@@ -241,6 +241,6 @@ mod tests {
         let domain = parse("t.mesh", text.as_bytes()).unwrap();
         let surface = domain.as_surface().unwrap();
         assert_eq!(surface.positions()[2], [1.0, 1.0, 0.0]);
-        assert_eq!(surface.faces().iter().map(Vec::len).collect::<Vec<_>>(), [3, 4]);
+        assert_eq!(surface.faces().iter().map(<[usize]>::len).collect::<Vec<_>>(), [3, 4]);
     }
 }

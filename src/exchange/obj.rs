@@ -254,14 +254,14 @@ mod tests {
             "f 1 2 3 4\\\n\nl 1 2",
         ] {
             let found = surface(&format!("{VERTICES}{face}"));
-            assert_eq!(found.faces(), [[0, 1, 2, 3]], "{face}");
+            assert_eq!(*found.faces(), [[0, 1, 2, 3]], "{face}");
             assert_eq!(found.positions().len(), 4);
         }
     }
 
     #[test]
     fn a_face_may_stand_before_its_vertices_unless_it_counts_back() {
-        assert_eq!(surface(&format!("f 1 2 3\n{VERTICES}")).faces(), [[0, 1, 2]]);
+        assert_eq!(surface(&format!("f 1 2 3\n{VERTICES}")).faces().to_vec(), [[0, 1, 2]]);
         assert!(parse("t.obj", format!("f -1 -2 -3\n{VERTICES}").as_bytes()).is_err());
     }
 

@@ -349,7 +349,7 @@ mod tests {
         for file in [ascii(), binary(false), binary(true)] {
             let domain = parse("t.ply", &file).unwrap();
             let surface = domain.as_surface().unwrap();
-            assert_eq!((surface.positions(), surface.faces()), (&expected[..], &[vec![2, 0, 1]][..]));
+            assert_eq!((surface.positions(), surface.faces().to_vec()), (&expected[..], vec![vec![2, 0, 1]]));
         }
     }
 

@@ -60,12 +60,12 @@ fn faces(text: &str) -> Option<Vec<Vec<usize>>> {
 }
 
 /// The call that lists a surface; two coordinates where the third is zero everywhere.
-pub fn call(positions: &[[f64; 3]], faces: &[Vec<usize>]) -> String {
+pub fn call<F: AsRef<[usize]>>(positions: &[[f64; 3]], faces: impl IntoIterator<Item = F>) -> String {
     let plane = positions.iter().all(|p| p[2] == 0.0);
     let point = |p: &[f64; 3]| p[..if plane { 2 } else { 3 }].iter().map(f64::to_string).collect::<Vec<_>>().join(" ");
-    let face = |f: &Vec<usize>| f.iter().map(usize::to_string).collect::<Vec<_>>().join(" ");
+    let face = |f: F| f.as_ref().iter().map(usize::to_string).collect::<Vec<_>>().join(" ");
     let points: Vec<String> = positions.iter().map(point).collect();
-    let faces: Vec<String> = faces.iter().map(face).collect();
+    let faces: Vec<String> = faces.into_iter().map(face).collect();
     format!("listed:faces={},points={}", faces.join(";"), points.join(";"))
 }
 

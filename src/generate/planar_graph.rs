@@ -5,6 +5,7 @@ use super::shape::scatter;
 use super::shape::verge::{BOUNDARY, bounded, shuffled};
 use super::{GenerateError, Generator, Make, Stream};
 use crate::domain::Domain;
+use crate::domain::faces::Faces;
 use crate::domain::topology::Topology;
 use crate::parameter::{Parameter, Range, Settings};
 
@@ -33,8 +34,7 @@ pub static ENTRY: Generator = Generator {
 fn make(settings: &Settings, stream: &mut Stream) -> Result<Domain, GenerateError> {
     let n = settings.whole("n");
     let faces = scatter::delaunay("planar-graph", &square(n, stream))?;
-    let faces: Vec<Vec<usize>> = faces.iter().map(|f| f.to_vec()).collect();
-    let mut edges = Topology::new(n, &faces).edges().to_vec();
+    let mut edges = Topology::new(n, &Faces::triangles(&faces)).edges().to_vec();
     stream.shuffle(&mut edges);
     edges.truncate(edges.len() - (settings.number("removed") * edges.len() as f64).round() as usize);
     bounded("planar-graph", (n, &edges), &shuffled(n, stream), settings)

@@ -50,8 +50,8 @@ mod tests {
             let at = |v: usize| [surface.positions()[v][0], surface.positions()[v][1]];
             for e in (0..domain.edges().len()).filter(|&e| surface.topology().is_boundary_edge(e)) {
                 let side = surface.topology().sides(e)[0];
-                let corners = &surface.faces()[side.face];
-                let (a, b) = (corners[side.corner], corners[(side.corner + 1) % 3]);
+                let corners = &surface.faces()[side.face()];
+                let (a, b) = (corners[side.corner()], corners[(side.corner() + 1) % 3]);
                 assert!((0..n).all(|v| v == a || v == b || orient2d(at(a), at(b), at(v)).is_gt()));
             }
         }

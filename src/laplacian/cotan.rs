@@ -142,10 +142,9 @@ fn build(domain: &Domain, settings: &Settings) -> Result<Operator, BuildError> {
 /// `½ Σ cot` over the angles opposite an edge, with a relative error below one: its sign is exact.
 fn weight(triangles: &Triangles, edge: usize) -> f64 {
     let (mut cotangents, mut count) = ([0.0; 2], 0);
-    for flank in triangles.beside(edge) {
-        let [_, _, apex] = flank.corners;
+    for &cotangent in triangles.cotangents_opposite(edge) {
         if count < 2 {
-            cotangents[count] = flank.shape.cotangents[apex];
+            cotangents[count] = cotangent;
         }
         count += 1;
     }
@@ -160,14 +159,14 @@ fn weight(triangles: &Triangles, edge: usize) -> f64 {
 
 /// `½ Σ cot` over any scalar.
 fn weight_over<S: Scalar>(triangles: &Triangles<S>, edge: usize) -> S {
-    triangles.beside(edge).fold(S::zero(), |sum, flank| {
-        let [_, _, apex] = flank.corners;
-        sum + S::half() * flank.shape.cotangents[apex].clone()
-    })
+    triangles.cotangents_opposite(edge).fold(S::zero(), |sum, cotangent| sum + S::half() * cotangent.clone())
 }
 
 /// The exact sign of the weight.
 pub(super) fn sign(triangles: &Triangles, edge: usize) -> Ordering {
+    if let Some(sign) = delaunay::clear_sign(triangles.cotangents_opposite(edge).copied()) {
+        return sign;
+    }
     let surface = triangles.surface();
     let [i, j] = surface.topology().edges()[edge].map(|v| surface.positions()[v]);
     let apexes: Vec<_> = triangles.beside(edge).map(|flank| surface.positions()[flank.opposite]).collect();

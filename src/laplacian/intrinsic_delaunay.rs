@@ -72,6 +72,7 @@ use super::stiffness::EdgeWeights;
 use super::{BuildError, Fact, Laplacian, Promise, When, mass, on_triangles, stiffness};
 use crate::domain::intrinsic::{IntrinsicError, IntrinsicTriangulation};
 use crate::domain::{Domain, delaunay};
+use crate::linalg::{Csr, parallel};
 use crate::operator::{Operator, Provenance};
 use crate::parameter::Settings;
 
@@ -130,19 +131,31 @@ fn build(domain: &Domain, settings: &Settings) -> Result<Operator, BuildError> {
     let skip = settings.get("degenerate") == "skip";
     let triangles = Triangles::new(ENTRY.id, surface, skip)?.with_lengths(ENTRY.id)?;
     let mut intrinsic = IntrinsicTriangulation::new(surface, |face| triangles.is_proper(face)).map_err(refusal)?;
-    let flips = intrinsic.make_delaunay();
-    let shapes: Vec<Shape<f64>> = (0..intrinsic.face_count()).map(|f| shape(&intrinsic, f)).collect();
-    let weights: Vec<_> = (0..intrinsic.edge_count()).filter_map(|e| edge_weights(&intrinsic, &shapes, e)).collect();
+    let clear = |e: usize| delaunay::clear_sign(triangles.cotangents_opposite(e).copied());
+    let clear = parallel::collect(intrinsic.edge_count(), clear);
+    let flips = intrinsic.make_delaunay_knowing(|edge| clear[edge]);
+    drop(clear);
+    let shapes =
+        parallel::collect(intrinsic.face_count(), |f| (corners(&intrinsic, f), shape(&intrinsic, &triangles, f)));
+    // The cotangent opposite each half-edge, put down face by face: edges then read theirs in order.
+    let mut opposite = vec![0.0; 2 * intrinsic.edge_count()];
+    for (face, (_, shape)) in shapes.iter().enumerate() {
+        let [h, n, p] = intrinsic.half_edges(face);
+        (opposite[n], opposite[p], opposite[h]) = shape.cotangents.into();
+    }
+    let weights = parallel::collect(intrinsic.edge_count(), |e| edge_weights(&intrinsic, &opposite, e));
+    drop(opposite);
+    let weights: Vec<EdgeWeights<f64>> = weights.into_iter().flatten().collect();
     let n = surface.positions().len();
     let matrix = stiffness::finite(ENTRY.id, n, &weights)?;
-    let corners = (0..intrinsic.face_count()).map(|f| intrinsic.corners(f));
-    let mass = mass::build(ENTRY.id, settings.get("mass"), n, corners.zip(&shapes))?;
+    let each = shapes.iter().map(|(corners, shape)| (*corners, shape));
+    let mass = mass::build(ENTRY.id, settings.get("mass"), n, each)?;
     let mut notes = on_triangles::notes(&triangles);
     notes.push(format!("{flips} flips to the intrinsic Delaunay triangulation"));
     notes.extend(negative_by_rounding(&intrinsic, &weights));
     let provenance = Provenance { id: ENTRY.id.into(), parameters: settings.all().clone(), notes };
+    let exact = (intrinsic.is_planar() || flips == 0) && !has_parallel_edges(&weights, &matrix);
     let operator = Operator::new(matrix, provenance)?.with_mass(mass)?;
-    let exact = (intrinsic.is_planar() || flips == 0) && !has_parallel_edges(&weights);
     Ok(if exact { operator.with_exact_signs() } else { operator })
 }
 
@@ -155,8 +168,18 @@ fn refusal(error: IntrinsicError) -> BuildError {
     }
 }
 
-/// The shape of an intrinsic triangle, in the order of its half-edges: from positions where it is straight in space.
-fn shape(intrinsic: &IntrinsicTriangulation, face: usize) -> Shape<f64> {
+/// The corners of an intrinsic triangle, in the order of its half-edges.
+fn corners(intrinsic: &IntrinsicTriangulation, face: usize) -> [usize; 3] {
+    let known = intrinsic.source(face).and_then(|source| intrinsic.surface().triangle(source));
+    known.unwrap_or_else(|| intrinsic.corners(face))
+}
+
+/// The shape of an intrinsic triangle, in the order of its half-edges: that of the face that it is, from positions where it is
+/// straight in space.
+fn shape(intrinsic: &IntrinsicTriangulation, triangles: &Triangles, face: usize) -> Shape<f64> {
+    if let Some(known) = intrinsic.source(face).and_then(|source| triangles.shape(source)) {
+        return known.clone();
+    }
     if intrinsic.is_straight(face) {
         return Shape::in_space(intrinsic.corners(face).map(|v| intrinsic.surface().point(v)));
     }
@@ -170,21 +193,19 @@ fn shape(intrinsic: &IntrinsicTriangulation, face: usize) -> Shape<f64> {
     }
 }
 
-/// The ends and the weight of an intrinsic edge, its sign exact where both triangles are straight.
-fn edge_weights(intrinsic: &IntrinsicTriangulation, shapes: &[Shape<f64>], edge: usize) -> Option<EdgeWeights<f64>> {
+/// The ends and the weight of an intrinsic edge, its sign exact where both triangles are straight; `opposite` has the cotangent
+/// opposite each half-edge.
+fn edge_weights(intrinsic: &IntrinsicTriangulation, opposite: &[f64], edge: usize) -> Option<EdgeWeights<f64>> {
     let ends = intrinsic.ends(edge)?;
-    let (mut weight, mut apexes, mut straight) = (0.0, Vec::with_capacity(2), true);
-    for h in intrinsic.sides(edge) {
-        let face = intrinsic.face(h);
-        let ring = intrinsic.half_edges(face);
-        let apex = (0..3).find(|&k| ring[(k + 1) % 3] == h)?;
-        weight += 0.5 * shapes[face].cotangents[apex];
-        apexes.push(intrinsic.surface().positions()[intrinsic.corners(face)[apex]]);
-        straight &= intrinsic.is_straight(face);
-    }
-    if straight {
-        let [p, q] = ends.map(|v| intrinsic.surface().positions()[v]);
-        weight = with_sign(weight, delaunay::cotangent_sum_sign(p, q, &apexes).unwrap_or(Ordering::Equal));
+    let cotangents = intrinsic.sides(edge).map(|h| opposite[h]);
+    let mut weight = cotangents.clone().fold(0.0, |sum, cotangent| sum + 0.5 * cotangent);
+    if intrinsic.sides(edge).all(|h| intrinsic.is_straight(intrinsic.face(h))) {
+        let exact = || {
+            let at = |v: usize| intrinsic.surface().positions()[v];
+            let apexes: Vec<_> = intrinsic.sides(edge).map(|h| at(intrinsic.apex(h))).collect();
+            delaunay::cotangent_sum_sign(at(ends[0]), at(ends[1]), &apexes).unwrap_or(Ordering::Equal)
+        };
+        weight = with_sign(weight, delaunay::clear_sign(cotangents).unwrap_or_else(exact));
     }
     Some((ends, [weight, weight]))
 }
@@ -199,8 +220,10 @@ fn negative_by_rounding(intrinsic: &IntrinsicTriangulation, weights: &[EdgeWeigh
     Some(format!("{count} interior weights are negative by rounding, the worst is {worst:e}; they are kept"))
 }
 
-fn has_parallel_edges(weights: &[EdgeWeights<f64>]) -> bool {
-    let mut ends: Vec<_> = weights.iter().map(|&([a, b], _)| [a.min(b), a.max(b)]).collect();
-    ends.sort_unstable();
-    ends.windows(2).any(|pair| pair[0] == pair[1])
+/// Whether two edges have the same ends: then the matrix has fewer entries than ends and vertices, or a vertex several loops.
+fn has_parallel_edges(weights: &[EdgeWeights<f64>], matrix: &Csr) -> bool {
+    let mut loops: Vec<usize> = weights.iter().filter(|([a, b], _)| a == b).map(|([a, _], _)| *a).collect();
+    loops.sort_unstable();
+    let entries = matrix.rows() + 2 * (weights.len() - loops.len());
+    matrix.stored() < entries || loops.windows(2).any(|pair| pair[0] == pair[1])
 }

@@ -25,7 +25,8 @@ use super::BuildError;
 use super::shape::{Shape, Triangles};
 use super::stiffness::check_finite;
 use crate::domain::Surface;
-use crate::linalg::Csr;
+use crate::domain::topology::Corner;
+use crate::linalg::{Csr, parallel};
 use crate::operator::{Mass, MassKind};
 use crate::scalar::Scalar;
 
@@ -75,6 +76,38 @@ pub(super) fn build<'s>(
     let matrix = of_triangles(kind, vertices, triangles).unwrap_or_else(|| Csr::diagonal(&vec![1.0; vertices]));
     check_finite(laplacian, &matrix)?;
     Ok(Mass::full(kind, matrix))
+}
+
+/// The mass matrix with this name of the proper triangles of a surface, bit for bit that of [`build`]; a diagonal one is
+/// gathered vertex by vertex over the faces around it, in parallel.
+///
+/// # Errors
+/// As [`build`].
+pub(super) fn of_surface(laplacian: &'static str, name: &str, triangles: &Triangles) -> Result<Mass, BuildError> {
+    let vertices = triangles.surface().positions().len();
+    let each = triangles.each().map(|(_, corners, shape)| (corners, shape));
+    let kind = MassKind::from_name(name).unwrap_or(MassKind::Unit);
+    let shares = match kind {
+        MassKind::Barycentric => thirds,
+        MassKind::Voronoi => circumcentric,
+        MassKind::Mixed => mixed,
+        _ => return build(laplacian, name, vertices, each),
+    };
+    if !triangles.have_normal_areas() {
+        return build(laplacian, name, vertices, each);
+    }
+    let matrix = Csr::diagonal(&gathered(triangles, shares));
+    check_finite(laplacian, &matrix)?;
+    Ok(Mass::full(kind, matrix))
+}
+
+/// At each vertex the sum of the shares of the proper triangles around it, in face order.
+fn gathered<S: Scalar>(triangles: &Triangles<S>, shares: fn(&Shape<S>) -> [S; 3]) -> Vec<S> {
+    let topology = triangles.surface().topology();
+    parallel::collect(triangles.surface().positions().len(), |v| {
+        let share = |c: &Corner| Some(shares(triangles.shape(c.face())?)[c.corner()].clone());
+        topology.star(v).iter().filter_map(share).fold(S::zero(), |sum, share| sum + share)
+    })
 }
 
 fn number<S: Scalar>(x: f64) -> S {

@@ -3,6 +3,7 @@
 use super::shape::Triangles;
 use super::{BuildError, When, mass, stiffness};
 use crate::domain::{Domain, DomainKind, Surface};
+use crate::linalg::parallel;
 use crate::operator::{Operator, Provenance};
 use crate::parameter::{Parameter, Range, Settings};
 
@@ -41,17 +42,17 @@ pub(super) fn operator(
     laplacian: &'static str,
     domain: &Domain,
     settings: &Settings,
-    weights: impl Fn(&Triangles, usize) -> [f64; 2],
+    weights: impl Fn(&Triangles, usize) -> [f64; 2] + Sync + Send,
 ) -> Result<Operator, BuildError> {
     let surface = surface(laplacian, domain)?;
     let skip = settings.get("degenerate") == "skip";
     let triangles = Triangles::new(laplacian, surface, skip)?.with_lengths(laplacian)?;
     let edges = surface.topology().edges();
-    let weights: Vec<_> = edges.iter().enumerate().map(|(e, &ends)| (ends, weights(&triangles, e))).collect();
-    let n = surface.positions().len();
-    let matrix = stiffness::finite(laplacian, n, &weights)?;
-    let shapes = triangles.each().map(|(_, corners, shape)| (corners, shape));
-    let mass = mass::build(laplacian, settings.get("mass"), n, shapes)?;
+    let weights: Vec<[f64; 2]> = parallel::collect(edges.len(), |e| weights(&triangles, e));
+    let matrix = stiffness::from_edges(surface.positions().len(), edges, &weights);
+    stiffness::check_finite(laplacian, &matrix)?;
+    drop(weights);
+    let mass = mass::of_surface(laplacian, settings.get("mass"), &triangles)?;
     let notes = notes(&triangles);
     let provenance = Provenance { id: laplacian.into(), parameters: settings.all().clone(), notes };
     Ok(Operator::new(matrix, provenance)?.with_mass(mass)?)

@@ -6,6 +6,7 @@ use super::BuildError;
 use crate::domain::cotangent;
 use crate::domain::geometry::{self, Vec3};
 use crate::domain::{Surface, topology::Side};
+use crate::linalg::parallel;
 use crate::scalar::Scalar;
 
 /// What the constructions need of a triangle, over `f64` or over the rationals (in the plane all of it is rational).
@@ -63,15 +64,14 @@ impl<'a> Triangles<'a, f64> {
     /// # Errors
     /// A face with more than three corners; a degenerate triangle, unless they are to be left out (`skip`).
     pub fn new(laplacian: &'static str, surface: &'a Surface, skip: bool) -> Result<Self, BuildError> {
-        let corners = check_triangles(laplacian, surface)?;
-        let at = |v: usize| surface.positions()[v];
-        let proper: Vec<bool> = corners.iter().map(|&[i, j, k]| !geometry::collinear(at(i), at(j), at(k))).collect();
-        let count = proper.iter().filter(|p| !**p).count();
-        if let (Some(face), false) = (proper.iter().position(|p| !p), skip) {
-            return Err(BuildError::Degenerate { laplacian, face, corners: corners[face], count });
+        check_triangles(laplacian, surface)?;
+        let shapes = parallel::collect(surface.faces().len(), |face| proper_shape(surface.triangle(face)?, surface));
+        let triangles = Triangles { surface, shapes };
+        if let (Some(face), false) = (triangles.shapes.iter().position(Option::is_none), skip) {
+            let (corners, count) = (surface.triangle(face).unwrap_or_default(), triangles.skipped());
+            return Err(BuildError::Degenerate { laplacian, face, corners, count });
         }
-        let shape = |(t, &proper): (&[usize; 3], &bool)| proper.then(|| Shape::in_space(t.map(|v| surface.point(v))));
-        Ok(Triangles { surface, shapes: corners.iter().zip(&proper).map(shape).collect() })
+        Ok(triangles)
     }
 
     /// Refuses triangles so small that the squares of their sides lose digits below the range of `f64`.
@@ -81,12 +81,17 @@ impl<'a> Triangles<'a, f64> {
     pub fn with_lengths(self, laplacian: &'static str) -> Result<Self, BuildError> {
         // 2⁻¹⁰²² · 2⁶²: a product of two numbers near its root still has all of its 53 bits.
         const SMALLEST: f64 = 1e-289;
-        for (_, [i, j, _], shape) in self.each() {
-            if shape.squared_lengths.iter().any(|s| *s < SMALLEST) {
-                return Err(BuildError::NotFinite { laplacian, i, j, value: "a length that underflows".into() });
-            }
+        let underflows = |shape: &Shape<f64>| shape.squared_lengths.iter().any(|s| *s < SMALLEST);
+        let found = self.each().find(|(_, _, shape)| underflows(shape)).map(|(_, corners, _)| corners);
+        if let Some([i, j, _]) = found {
+            return Err(BuildError::NotFinite { laplacian, i, j, value: "a length that underflows".into() });
         }
         Ok(self)
+    }
+
+    /// Whether the area of every triangle is a normal number.
+    pub(super) fn have_normal_areas(&self) -> bool {
+        self.shapes.iter().flatten().all(|shape| shape.doubled_area.is_normal())
     }
 }
 
@@ -115,6 +120,17 @@ impl<'a, S: Scalar> Triangles<'a, S> {
         self.shapes[face].is_some()
     }
 
+    /// The shape of a triangle; `None` if it was left out.
+    pub fn shape(&self, face: usize) -> Option<&Shape<S>> {
+        self.shapes[face].as_ref()
+    }
+
+    /// The cotangents of the angles opposite an edge, in face order.
+    pub fn cotangents_opposite(&self, edge: usize) -> impl Iterator<Item = &S> + Clone {
+        let sides = self.surface.topology().sides(edge).iter();
+        sides.filter_map(|side| Some(&self.shape(side.face())?.cotangents[(side.corner() + 2) % 3]))
+    }
+
     /// The number of triangles left out.
     pub fn skipped(&self) -> usize {
         self.shapes.iter().filter(|s| s.is_none()).count()
@@ -126,11 +142,11 @@ impl<'a, S: Scalar> Triangles<'a, S> {
     }
 
     fn flank(&self, side: &Side) -> Option<Flank<'_, S>> {
-        let shape = self.shapes[side.face].as_ref()?;
-        let (start, end) = (side.corner, (side.corner + 1) % 3);
-        let (low, high) = if side.forward { (start, end) } else { (end, start) };
-        let apex = (side.corner + 2) % 3;
-        let opposite = self.surface.triangle(side.face)?[apex];
+        let shape = self.shapes[side.face()].as_ref()?;
+        let (start, end) = (side.corner(), (side.corner() + 1) % 3);
+        let (low, high) = if side.forward() { (start, end) } else { (end, start) };
+        let apex = (side.corner() + 2) % 3;
+        let opposite = self.surface.triangle(side.face())?[apex];
         Some(Flank { shape, corners: [low, high, apex], opposite })
     }
 }
@@ -145,12 +161,22 @@ pub struct Flank<'a, S> {
     pub opposite: usize,
 }
 
-fn check_triangles(laplacian: &'static str, surface: &Surface) -> Result<Vec<[usize; 3]>, BuildError> {
-    let triangle = |face: usize| {
-        let corners = surface.faces()[face].len();
-        surface.triangle(face).ok_or(BuildError::NotATriangle { laplacian, face, corners })
-    };
-    (0..surface.faces().len()).map(triangle).collect()
+fn check_triangles(laplacian: &'static str, surface: &Surface) -> Result<(), BuildError> {
+    match surface.faces().iter().map(<[usize]>::len).enumerate().find(|&(_, corners)| corners != 3) {
+        Some((face, corners)) => Err(BuildError::NotATriangle { laplacian, face, corners }),
+        None => Ok(()),
+    }
+}
+
+/// The shape of a triangle; `None` if it is degenerate (exactly).
+///
+/// Where a cotangent is at most 2²⁰ the sine of its angle is above 2⁻²¹, far beyond what rounding makes of a sine that is zero
+/// ([`geometry::cotangent`]: its error is below 8u/sin²); only thinner triangles are asked exactly.
+fn proper_shape(corners: [usize; 3], surface: &Surface) -> Option<Shape<f64>> {
+    let shape = Shape::in_space(corners.map(|v| surface.point(v)));
+    let clear = shape.cotangents.iter().any(|cot| cot.abs() <= 1_048_576.0);
+    let [i, j, k] = corners.map(|v| surface.positions()[v]);
+    (clear || !geometry::collinear(i, j, k)).then_some(shape)
 }
 
 /// The weight with its sign replaced by the exact one: zero where that is zero, and never zero where it is not.

@@ -11,6 +11,7 @@ pub mod factor;
 pub mod full;
 mod influence;
 mod lanczos;
+pub(crate) mod parallel;
 pub mod program;
 pub mod rational;
 pub mod regular;

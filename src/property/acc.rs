@@ -109,7 +109,7 @@ fn check(trial: &Trial) -> Verdict {
                 Statement::Inaccurate { i, j, exact: w.exact.high, error: w.error, threshold: found.threshold.defect };
             let edge = surface.topology().edge_between(i, j);
             let faces: Vec<usize> =
-                edge.map_or_else(Vec::new, |e| surface.topology().sides(e).iter().map(|s| s.face).collect());
+                edge.map_or_else(Vec::new, |e| surface.topology().sides(e).iter().map(|s| s.face()).collect());
             Evidence::new(statement, excerpt::of_rows(trial, [i]).with_faces(trial, &faces).with_corners(trial))
         },
     );
@@ -128,7 +128,7 @@ fn weigh(trial: &Trial, surface: &Surface, triangles: &Triangles) -> (Vec<Weighe
         .collect();
     let (mut weights, mut left_out) = (Vec::with_capacity(topology.edges().len()), 0);
     for (edge, &[i, j]) in topology.edges().iter().enumerate() {
-        if topology.sides(edge).iter().any(|side| !proper[side.face]) {
+        if topology.sides(edge).iter().any(|side| !proper[side.face()]) {
             left_out += 1;
             continue;
         }

@@ -22,6 +22,7 @@ use super::tolerance::{LARGEST_EXPLAINED, Threshold};
 use super::verdict::Level;
 use super::{Property, Question, Trial, Verdict};
 use crate::domain::{Domain, Surface};
+use crate::linalg::parallel;
 
 /// The catalogue entry.
 pub static ENTRY: Property = Property {
@@ -53,7 +54,7 @@ fn check(trial: &Trial) -> Verdict {
     if plane.is_none() && !shares::has_planar_faces(surface) {
         return Verdict::not_applicable("the surface has a polygon that is not planar: its area is a convention");
     }
-    let (area, area_threshold) = shares::area(surface);
+    let (area, area_threshold) = shares::area(surface, trial.scales());
     if area == 0.0 {
         return Verdict::not_applicable("the surface has no area");
     }
@@ -66,15 +67,17 @@ fn check(trial: &Trial) -> Verdict {
     let mut scan = Scan::new();
     match plane {
         Some(axes) => {
-            for (axis, other) in axes.iter().flat_map(|&a| axes.iter().map(move |&b| (a, b))) {
-                let expected = if axis == other { area } else { 0.0 };
-                let found = energy(trial, surface, &[[axis, other]]);
+            let [a, b] = axes;
+            let [aa, ab, bb] = energies(trial, surface, [[a, a], [a, b], [b, b]]);
+            // The energy of (b, a) is that of (a, b), bit for bit.
+            for (axis, other, found) in [(a, a, aa), (a, b, ab), (b, a, ab), (b, b, bb)] {
+                let (expected, found) = (if axis == other { area } else { 0.0 }, found.value());
                 let place = Place { axis, other, trace: false, found, expected };
                 scan.look(place, (found - expected).abs(), threshold(area));
             }
         }
         None => {
-            let found = energy(trial, surface, &[[0, 0], [1, 1], [2, 2]]);
+            let found = trace(trial, surface);
             let place = Place { axis: 0, other: 0, trace: true, found, expected: 2.0 * area };
             scan.look(place, (found - 2.0 * area).abs(), threshold(2.0 * area));
         }
@@ -97,15 +100,35 @@ fn check(trial: &Trial) -> Verdict {
     }
 }
 
-/// `½ Σ_{i≠j} ω_ij (x_i − x_j)_a (x_i − x_j)_b`, added up over the pairs (a, b) of coordinates, in twice the working
-/// precision.
-fn energy(trial: &Trial, surface: &Surface, pairs: &[[usize; 2]]) -> f64 {
-    let mut total = Sum::default();
-    for (i, j, &v) in trial.operator.stiffness().entries().filter(|(i, j, _)| i != j) {
-        let (p, q) = (surface.positions()[i], surface.positions()[j]);
-        pairs.iter().for_each(|&[a, b]| total.add_triple(-0.5 * v, p[a] - q[a], p[b] - q[b]));
+/// `½ Σ_{i≠j} ω_ij (x_i − x_j)_a (x_i − x_j)_b` of some pairs (a, b) of coordinates, in twice the working precision, all in
+/// one pass over the matrix.
+fn energies<const N: usize>(trial: &Trial, surface: &Surface, pairs: [[usize; 2]; N]) -> [Sum; N] {
+    let mut sums = [Sum::default(); N];
+    each_difference(trial, surface, |v, d| {
+        for (sum, [a, b]) in sums.iter_mut().zip(pairs) {
+            sum.add_triple(-0.5 * v, d[a], d[b]);
+        }
+    });
+    sums
+}
+
+/// The sum of the energies of the three coordinates.
+fn trace(trial: &Trial, surface: &Surface) -> f64 {
+    let mut sum = Sum::default();
+    each_difference(trial, surface, |v, d| d.iter().for_each(|&d| sum.add_triple(-0.5 * v, d, d)));
+    sum.value()
+}
+
+/// Each entry off the diagonal with the difference of the positions, row by row.
+fn each_difference(trial: &Trial, surface: &Surface, mut see: impl FnMut(f64, [f64; 3])) {
+    let (matrix, positions) = (trial.operator.stiffness(), surface.positions());
+    for i in 0..matrix.rows() {
+        let p = positions[i];
+        for (j, &v) in matrix.row(i).filter(|&(j, _)| j != i) {
+            let q = positions[j];
+            see(v, [p[0] - q[0], p[1] - q[1], p[2] - q[2]]);
+        }
     }
-    total.value()
 }
 
 /// What rounding explains of the energy: that of each row, over the energies of its edges.
@@ -113,7 +136,8 @@ fn rounding(trial: &Trial, surface: &Surface) -> Threshold {
     let (matrix, scales) = (trial.operator.stiffness(), trial.scales());
     let squared = |i: usize, j: usize| distance(surface.positions()[i], surface.positions()[j]).powi(2);
     let size = |i: usize| 0.5 * matrix.row(i).map(|(j, v)| v.abs() * squared(i, j)).sum::<f64>();
-    (0..matrix.rows()).map(|i| scales.combination(i, size(i))).fold(Threshold::NONE, Threshold::plus)
+    let rows = parallel::collect(matrix.rows(), |i| scales.combination(i, size(i)));
+    rows.into_iter().fold(Threshold::NONE, Threshold::plus)
 }
 
 /// The vertex whose row accounts for most of what is wrong: its share `½ Σ_j ω_ij |x_i − x_j|²` of the trace against twice

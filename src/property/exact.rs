@@ -158,7 +158,7 @@ impl<'a> Case<'a> {
 
     /// Twice the signed area.
     fn doubled_area(&self) -> Rational {
-        let of = |f: &Vec<usize>| {
+        let of = |f: &[usize]| {
             let [a, b, c] = [0, 1, 2].map(|k| &self.plane.positions[f[k]]);
             geometry::doubled_area(a, b, c)
         };
@@ -187,8 +187,8 @@ impl<'a> Case<'a> {
         let topology = self.plane.surface.topology();
         let on_boundary = |v: usize| topology.edge_between(i, v).is_some_and(|e| topology.is_boundary_edge(e));
         let (mut before, mut after) = (i, i);
-        for &(face, corner) in topology.star(i) {
-            let corners = &self.plane.surface.faces()[face];
+        for &at in topology.star(i) {
+            let (corners, corner) = (&self.plane.surface.faces()[at.face()], at.corner());
             let (next, previous) = (corners[(corner + 1) % 3], corners[(corner + 2) % 3]);
             after = if on_boundary(next) { next } else { after };
             before = if on_boundary(previous) { previous } else { before };

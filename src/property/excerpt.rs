@@ -71,7 +71,7 @@ impl Excerpt {
     /// With faces of a surface.
     pub(crate) fn with_faces(mut self, trial: &Trial, which: &[usize]) -> Self {
         if let Some(surface) = trial.domain.as_surface() {
-            self.faces.extend(which.iter().map(|&f| (f, surface.faces()[f].clone())));
+            self.faces.extend(which.iter().map(|&f| (f, surface.faces()[f].to_vec())));
         }
         self
     }
@@ -80,7 +80,7 @@ impl Excerpt {
     pub(crate) fn with_star(mut self, trial: &Trial, vertex: usize) -> Self {
         match trial.domain {
             Domain::Surface(surface) => {
-                let faces: Vec<usize> = surface.topology().star(vertex).iter().map(|&(f, _)| f).collect();
+                let faces: Vec<usize> = surface.topology().star(vertex).iter().map(|c| c.face()).collect();
                 self.with_faces(trial, &faces)
             }
             other => {

@@ -23,6 +23,10 @@ fn check(trial: &Trial) -> Verdict {
     let mut tally = Tally::default();
     let mut first = None;
     for (matrix, values) in stiffness.into_iter().chain(mass) {
+        if values.values().iter().all(|v| v.is_finite()) {
+            tally.total += values.stored();
+            continue;
+        }
         for (i, j, v) in values.entries() {
             tally.total += 1;
             if !v.is_finite() {

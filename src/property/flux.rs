@@ -37,7 +37,7 @@ fn check(trial: &Trial) -> Verdict {
     let mut scan = Scan::new();
     let mut left_out = 0;
     for (i, _) in surface.topology().boundary_vertices().iter().enumerate().filter(|(_, b)| **b) {
-        let Some([p, q]) = boundary_neighbours(surface, i) else {
+        let Some([p, q]) = boundary_neighbours(trial, surface, i) else {
             left_out += 1;
             continue;
         };
@@ -72,8 +72,8 @@ fn check(trial: &Trial) -> Verdict {
 }
 
 /// The vertices before and after a boundary vertex, the surface to the left of a counter-clockwise boundary.
-fn boundary_neighbours(surface: &Surface, i: usize) -> Option<[usize; 2]> {
-    if !is_proper_star(surface, i, 2) {
+fn boundary_neighbours(trial: &Trial, surface: &Surface, i: usize) -> Option<[usize; 2]> {
+    if !is_proper_star(trial, surface, i, 2) {
         return None;
     }
     let on_boundary = |v: usize| {
@@ -81,10 +81,8 @@ fn boundary_neighbours(surface: &Surface, i: usize) -> Option<[usize; 2]> {
         edge.is_some_and(|e| surface.topology().is_boundary_edge(e))
     };
     let (mut before, mut after) = (None, None);
-    for &(face, corner) in surface.topology().star(i) {
-        let corners = &surface.faces()[face];
-        let (next, previous) =
-            (corners[(corner + 1) % corners.len()], corners[(corner + corners.len() - 1) % corners.len()]);
+    for corner in surface.topology().star(i) {
+        let [next, previous] = corner.neighbours(surface.faces());
         if on_boundary(next) {
             after = Some(next);
         }

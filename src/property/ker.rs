@@ -130,7 +130,7 @@ impl<'a> Case<'a> {
         match self.trial.domain.as_surface() {
             Some(surface) => {
                 let star = surface.topology().star(i).iter();
-                excerpt.faces = star.map(|&(face, _)| (face, surface.faces()[face].clone())).collect();
+                excerpt.faces = star.map(|c| (c.face(), surface.faces()[c.face()].to_vec())).collect();
             }
             None => excerpt.edges = self.trial.domain.edges().iter().filter(|e| e.contains(&i)).copied().collect(),
         }

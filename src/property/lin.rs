@@ -12,6 +12,7 @@ use super::measure::scan::Scan;
 use super::verdict::Level;
 use super::{Property, Question, Trial, Verdict};
 use crate::domain::Domain;
+use crate::linalg::parallel;
 
 /// The catalogue entry.
 pub static ENTRY: Property = Property {
@@ -33,20 +34,22 @@ fn check(trial: &Trial) -> Verdict {
         Domain::Points(_) => return Verdict::not_applicable("a point cloud has no interior and no flat stars"),
         domain => places(trial, domain),
     };
-    let interior = trial.domain.interior().len();
+    let interior = trial.domain.boundary().iter().filter(|b| !**b).count();
     if vertices.is_empty() {
         return Verdict::not_applicable(match interior {
             0 => "there is no interior vertex".to_string(),
             n => format!("none of the {n} interior vertices has a flat and regular star that its row stays within"),
         });
     }
-    let mut scan = Scan::new();
-    for &i in &vertices {
+    // Computed before threads ask for them.
+    trial.scales();
+    let scan = Scan::over(vertices.len(), |at, scan: &mut Scan<(usize, usize)>| {
+        let i = vertices[at];
         let threshold = moment::threshold(trial, positions, i, 0.0);
         let size = |axis: usize| moment::moment(trial, positions, i, axis).value().abs();
         let (axis, residual) = worst(&axes, size);
         scan.look((i, axis), residual, threshold);
-    }
+    });
     let looked_at = vertices.len();
     scan.verdict(
         Level::Measured,
@@ -69,23 +72,25 @@ struct Places {
 }
 
 fn places(trial: &Trial, domain: &Domain) -> Places {
-    let interior = domain.interior();
     match domain {
         Domain::Surface(surface) => {
             let plane = moment::oriented_axes(surface);
-            let flat = |&i: &usize| {
-                is_proper_star(surface, i, 0)
+            let (boundary, _) = (domain.boundary(), (trial.scales(), trial.stencil()));
+            let flat = |i: usize| {
+                !boundary[i]
+                    && is_proper_star(trial, surface, i, 0)
                     && (plane.is_some() || (is_flat_star(surface, i) && !trial.scales().leaves_stencil(i)))
             };
+            let flat = parallel::collect(boundary.len(), flat);
             Places {
-                vertices: interior.into_iter().filter(flat).collect(),
+                vertices: (0..flat.len()).filter(|&i| flat[i]).collect(),
                 axes: plane.map_or(vec![0, 1, 2], |p| p.to_vec()),
                 plane: plane.unwrap_or([0, 1]),
             }
         }
         Domain::Volume(volume) => {
             let proper = moment::proper_balls(volume);
-            let vertices = interior.into_iter().filter(|&i| proper[i]).collect();
+            let vertices = domain.interior().into_iter().filter(|&i| proper[i]).collect();
             Places { vertices, axes: vec![0, 1, 2], plane: [0, 1] }
         }
         _ => Places { vertices: Vec::new(), axes: vec![0], plane: [0, 1] },

@@ -7,9 +7,11 @@
 
 use super::evidence::{Evidence, Statement};
 use super::excerpt;
+use super::stencil::Link;
 use super::verdict::{Level, Tally};
 use super::{Property, Question, Trial, Verdict};
 use crate::domain::{Domain, DomainKind};
+use crate::linalg::parallel;
 use crate::operator::Signs;
 
 /// The catalogue entry.
@@ -41,12 +43,10 @@ fn check(trial: &Trial) -> Verdict {
     if trial.domain.kind() == DomainKind::Points {
         return Verdict::not_applicable("a point cloud has no edges that an operator could be local to");
     }
-    let matrix = trial.operator.stiffness();
-    let far = far_entries(trial);
+    let (far, total) = far_entries(trial);
     let exact = trial.operator.signs() == Signs::Exact;
     let clear = |f: &&Far| exact || f.margin > 1.0;
     let violations = far.iter().filter(clear).count();
-    let total = matrix.entries().filter(|&(i, j, v)| i != j && *v != 0.0).count();
     let tally = Tally { violations, undecided: far.len() - violations, zeros: 0, total };
     let worst = far.iter().filter(clear).reduce(|worst, f| if f.size > worst.size { f } else { worst });
     let verdict = match (worst, far.first()) {
@@ -75,16 +75,24 @@ fn check(trial: &Trial) -> Verdict {
     }
 }
 
-/// The non-zero entries off the stencil, row by row.
-fn far_entries(trial: &Trial) -> Vec<Far> {
+/// The non-zero entries off the stencil, row by row, and how many there are off the diagonal in all.
+fn far_entries(trial: &Trial) -> (Vec<Far>, usize) {
     let (matrix, stencil, scales) = (trial.operator.stiffness(), trial.stencil(), trial.scales());
-    let measured = |i: usize, j: usize, v: f64| Far {
-        i,
-        j,
-        size: v.abs() / scales.rows[i],
-        margin: scales.row(i).margin(v.abs()),
-    };
-    (0..matrix.rows()).flat_map(|i| stencil.far_entries(matrix, i).map(move |(j, v)| measured(i, j, v))).collect()
+    let parts = parallel::blocks(matrix.rows(), |rows| {
+        let (mut far, mut total) = (Vec::new(), 0);
+        for i in rows {
+            for (j, v, link) in stencil.row(matrix, i).filter(|&(j, v, _)| i != j && v != 0.0) {
+                total += 1;
+                if link == Link::Far {
+                    let (size, margin) = (v.abs() / scales.rows[i], scales.row(i).margin(v.abs()));
+                    far.push(Far { i, j, size, margin });
+                }
+            }
+        }
+        (far, total)
+    });
+    let total = parts.iter().map(|(_, total)| total).sum();
+    (parts.into_iter().flat_map(|(far, _)| far).collect(), total)
 }
 
 fn witness(trial: &Trial, far: &Far) -> Evidence {

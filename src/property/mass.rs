@@ -77,10 +77,10 @@ fn strictest(parts: Vec<Verdict>) -> Verdict {
 }
 
 fn symmetric(trial: &Trial, mass: &Mass) -> Verdict {
-    let (matrix, transpose) = (mass.matrix(), mass.matrix().transpose());
+    let matrix = mass.matrix();
     let mut scan = Scan::new();
     for (i, j, &v) in matrix.entries().filter(|&(i, j, _)| i != j) {
-        let opposite = transpose.at(i, j);
+        let opposite = matrix.at(j, i);
         if i > j && opposite != 0.0 {
             continue;
         }
@@ -110,8 +110,8 @@ fn massive(trial: &Trial, shares: Option<&[Share]>) -> Vec<usize> {
 
 fn positive(trial: &Trial, mass: &Mass, shares: Option<&[Share]>) -> Verdict {
     let vertices = massive(trial, shares);
-    let mut scan = Scan::new();
-    for &i in &vertices {
+    let scan = Scan::over(vertices.len(), |at, scan: &mut Scan<usize>| {
+        let i = vertices[at];
         let d = mass.matrix().at(i, i);
         let (residual, threshold) = match (d, shares) {
             (d, _) if d > 0.0 => (0.0, Threshold::NONE),
@@ -121,7 +121,7 @@ fn positive(trial: &Trial, mass: &Mass, shares: Option<&[Share]>) -> Verdict {
             _ => (f64::INFINITY, Threshold::NONE),
         };
         scan.look(i, residual, threshold);
-    }
+    });
     let witness = |x: Vec<(usize, f64)>| {
         let support: Vec<usize> = x.iter().map(|&(i, _)| i).collect();
         Evidence::new(Statement::MassNotPositive { x }, excerpt::of_mass_rows(mass.matrix(), &support))
@@ -183,13 +183,14 @@ fn definite(matrix: &Csr, vertices: &[usize]) -> Definite {
 }
 
 fn total(trial: &Trial, mass: &Mass, surface: &Surface) -> Verdict {
-    let (area, mut threshold) = shares::area(surface);
+    let (area, mut threshold) = shares::area(surface, trial.scales());
     for i in 0..mass.size() {
-        let size = mass.matrix().row(i).map(|(_, v)| v.abs()).sum();
-        threshold = threshold.plus(Threshold::over(size, mass.matrix().row(i).len(), trial.scales().condition(i)));
+        let values = mass.matrix().row_slices(i).1;
+        let size = values.iter().map(|v| v.abs()).sum();
+        threshold = threshold.plus(Threshold::over(size, values.len(), trial.scales().condition(i)));
     }
     threshold.explained = threshold.explained.min(LARGEST_EXPLAINED * area);
-    let found = mass.matrix().entries().map(|(_, _, v)| *v).collect::<Sum>().value();
+    let found = mass.matrix().values().iter().copied().collect::<Sum>().value();
     let mut scan = Scan::new();
     scan.look((), (found - area).abs(), threshold);
     let verdict = scan.verdict(
@@ -238,15 +239,15 @@ fn shared_out(trial: &Trial, mass: &Mass, surface: &Surface, shares: &[Share]) -
     let found = row::compensated_sums(mass.matrix());
     let known = |k: &&Known| surface.is_triangulated() && k.kinds.contains(&mass.kind());
     let declared = KNOWN.iter().find(known);
-    let mut scan = Scan::new();
-    for (i, s) in shares.iter().enumerate() {
+    let scan = Scan::over(shares.len(), |i, scan: &mut Scan<(usize, [f64; 2])>| {
+        let s = &shares[i];
         let (bounds, threshold) = match declared {
             Some(k) => ([(k.share)(s); 2], (k.threshold)(s)),
             None => ([s.lower, s.upper], s.voronoi_threshold),
         };
         let outside = (bounds[0] - found[i]).max(found[i] - bounds[1]).max(0.0);
         scan.look((i, bounds), outside, threshold);
-    }
+    });
     let verdict = scan.verdict(
         Level::Measured,
         |&(i, _)| vec![i],

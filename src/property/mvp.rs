@@ -36,12 +36,15 @@ fn check(trial: &Trial) -> Verdict {
     if let Some(verdict) = trial.unless_finite() {
         return verdict;
     }
-    let sums = row::compensated_sums(trial.operator.stiffness());
-    let mut scan = Scan::new();
-    for i in trial.domain.interior().into_iter().filter(|&i| !trial.stencil().neighbours(i).is_empty()) {
-        let (fault, residual, threshold) = worst_of_row(trial, i, sums[i]);
-        scan.look((i, fault), residual, threshold);
-    }
+    let (matrix, boundary, stencil) = (trial.operator.stiffness(), trial.domain.boundary(), trial.stencil());
+    // Computed before threads ask for them.
+    trial.scales();
+    let scan = Scan::over(matrix.rows(), |i, scan: &mut Scan<(usize, Fault)>| {
+        if !boundary[i] && !stencil.neighbours(i).is_empty() {
+            let (fault, residual, threshold) = worst_of_row(trial, i, row::compensated_sum(matrix, i));
+            scan.look((i, fault), residual, threshold);
+        }
+    });
     if scan.is_empty() {
         return Verdict::not_applicable("there is no interior vertex with a neighbour");
     }
@@ -72,11 +75,11 @@ fn worst_of_row(trial: &Trial, i: usize, sum: f64) -> (Fault, f64, Threshold) {
     let rank =
         |(_, residual, threshold): &(Fault, f64, Threshold)| (threshold.judge(*residual), threshold.margin(*residual));
     let mut worst = (Fault::Sum, sum.abs(), trial.scales().row(i));
-    for (j, &v) in trial.operator.stiffness().row(i).filter(|&(j, v)| j != i && *v > 0.0) {
-        let edge = trial.domain.edges().binary_search(&[i.min(j), i.max(j)]).ok();
+    let row = trial.stencil().row(trial.operator.stiffness(), i);
+    for (j, v, link) in row.filter(|&(j, v, _)| j != i && v > 0.0) {
         let threshold = match trial.operator.signs() {
             Signs::Exact => Threshold::NONE,
-            Signs::Rounded => trial.scales().sign(i, v, edge),
+            Signs::Rounded => trial.scales().sign(i, v, link.edge()),
         };
         let found = (Fault::Weight(j), v, threshold);
         if rank(&found) > rank(&worst) {

@@ -24,10 +24,10 @@ fn check(trial: &Trial) -> Verdict {
     if let Some(verdict) = trial.unless_finite() {
         return verdict;
     }
-    let mut scan = Scan::new();
-    for (i, sum) in row::compensated_sums(trial.operator.stiffness()).into_iter().enumerate() {
-        scan.look(i, sum.abs(), trial.scales().row(i));
-    }
+    let (matrix, scales) = (trial.operator.stiffness(), trial.scales());
+    let scan = Scan::over(matrix.rows(), |i, scan: &mut Scan<usize>| {
+        scan.look(i, row::compensated_sum(matrix, i).abs(), scales.row(i));
+    });
     scan.verdict(
         Level::Measured,
         |&i| vec![i],

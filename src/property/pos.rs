@@ -5,7 +5,7 @@
 //! the strict predicate fail by an exact zero, and the verdict says so. Which pairs have a weight, and when a sign is clear,
 //! is told in [`weights`](super::measure::weights). Boundary edges have [POS-boundary](super::pos_boundary).
 
-use super::measure::weights::{Class, Weights, decide, strict};
+use super::measure::weights::Class;
 use super::{Property, Question, Trial, Verdict};
 
 /// The catalogue entry.
@@ -17,18 +17,14 @@ pub static ENTRY: Property = Property {
     question: Question::Operator(check),
 };
 
-/// Worst first: a negative weight, a zero, a sign that is not clear.
-pub(super) const ORDER: [Class; 4] = [Class::Violation, Class::Zero, Class::Open, Class::Fine];
-
 fn check(trial: &Trial) -> Verdict {
     if let Some(verdict) = trial.unless_finite() {
         return verdict;
     }
-    let weights = Weights::of(trial);
-    if weights.interior.is_empty() {
+    let surveys = trial.surveys();
+    if surveys.strict.tally.total == 0 {
         return Verdict::not_applicable("there is no interior edge");
     }
-    let failing = [Class::Violation, Class::Zero];
-    let verdict = decide(trial, &weights.interior, weights.literal, strict, ORDER, &failing);
-    weights.notes().into_iter().fold(verdict, Verdict::with_note)
+    let verdict = surveys.strict.decide(trial, &[Class::Violation, Class::Zero]);
+    surveys.notes.iter().cloned().fold(verdict, Verdict::with_note)
 }

@@ -4,7 +4,7 @@
 //! `ω_ij = −L_ij ≥ 0` on every interior edge: the weak form of [POS](super::pos). A weight that rounding cannot tell from
 //! zero counts among the `zeros`.
 
-use super::measure::weights::{Class, Weights, decide, weak};
+use super::measure::weights::Class;
 use super::{Property, Question, Trial, Verdict};
 
 /// The catalogue entry.
@@ -16,17 +16,14 @@ pub static ENTRY: Property = Property {
     question: Question::Operator(check),
 };
 
-/// Worst first: a negative weight, one that is open, a zero.
-const ORDER: [Class; 4] = [Class::Violation, Class::Open, Class::Zero, Class::Fine];
-
 fn check(trial: &Trial) -> Verdict {
     if let Some(verdict) = trial.unless_finite() {
         return verdict;
     }
-    let weights = Weights::of(trial);
-    if weights.interior.is_empty() {
+    let surveys = trial.surveys();
+    if surveys.weak.tally.total == 0 {
         return Verdict::not_applicable("there is no interior edge");
     }
-    let verdict = decide(trial, &weights.interior, weights.literal, weak, ORDER, &[Class::Violation]);
-    weights.notes().into_iter().fold(verdict, Verdict::with_note)
+    let verdict = surveys.weak.decide(trial, &[Class::Violation]);
+    surveys.notes.iter().cloned().fold(verdict, Verdict::with_note)
 }

@@ -5,8 +5,7 @@
 //! angle is obtuse, Delaunay or not. Interior edges with both ends on the boundary matter to no Dirichlet problem; they
 //! belong to [POS](super::pos) and are told apart in a note here.
 
-use super::measure::weights::{Class, Edge, Weights, decide, strict};
-use super::pos::ORDER;
+use super::measure::weights::Class;
 use super::{Property, Question, Trial, Verdict};
 use crate::domain::Domain;
 
@@ -29,22 +28,15 @@ fn check(trial: &Trial) -> Verdict {
             trial.domain.kind()
         ));
     }
-    let weights = Weights::of(trial);
-    if weights.boundary.is_empty() {
+    let surveys = trial.surveys();
+    if surveys.boundary.tally.total == 0 {
         return Verdict::not_applicable("there is no boundary edge");
     }
-    let failing = [Class::Violation, Class::Zero];
-    let verdict = decide(trial, &weights.boundary, weights.literal, strict, ORDER, &failing);
-    let on_boundary = trial.domain.boundary();
-    let bridges: Vec<Edge> = weights
-        .interior
-        .into_iter()
-        .filter(|e| e.number.is_some() && e.weights.iter().all(|w| on_boundary[w.i] && on_boundary[w.j]))
-        .collect();
-    if bridges.is_empty() {
+    let verdict = surveys.boundary.decide(trial, &[Class::Violation, Class::Zero]);
+    let tally = surveys.bridges.tally;
+    if tally.total == 0 {
         return verdict;
     }
-    let (tally, _) = super::measure::weights::survey(trial, &bridges, strict, ORDER);
     verdict.with_note(format!(
         "interior edges with both ends on the boundary, counted by POS: {} (violations {}, zeros {}, undecided {})",
         tally.total, tally.violations, tally.zeros, tally.undecided

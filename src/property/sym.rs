@@ -7,9 +7,11 @@
 use super::evidence::{Evidence, Statement};
 use super::excerpt;
 use super::measure::scan::Scan;
+use super::stencil::Link;
 use super::tolerance::Threshold;
 use super::verdict::{Level, Outcome};
 use super::{Property, Question, Trial, Verdict};
+use crate::linalg::{Csr, parallel};
 
 /// The catalogue entry.
 pub static ENTRY: Property = Property {
@@ -24,10 +26,10 @@ fn check(trial: &Trial) -> Verdict {
     if let Some(verdict) = trial.unless_finite() {
         return verdict;
     }
-    let mut scan = Scan::new();
-    for pair in pairs(trial) {
-        scan.look([pair.i, pair.j], pair.difference.abs(), pair.threshold);
-    }
+    let pairs = Pairs::of(trial);
+    let scan = Scan::over(trial.operator.size(), |i, scan: &mut Scan<[usize; 2]>| {
+        pairs.of_row(i, |pair| scan.look([pair.i, pair.j], pair.difference.abs(), pair.threshold));
+    });
     let bitwise = scan.margin() == 0.0;
     let mut verdict = scan.verdict(
         Level::Measured,
@@ -56,25 +58,54 @@ pub(super) struct Pair {
     pub threshold: Threshold,
 }
 
-/// The pairs at which something is stored on either side of the diagonal, row by row.
-pub(super) fn pairs<'a>(trial: &'a Trial) -> impl Iterator<Item = Pair> + 'a {
-    let (matrix, scales, edges) = (trial.operator.stiffness(), trial.scales(), trial.domain.edges());
-    let transpose = matrix.transpose();
-    (0..matrix.rows()).flat_map(move |i| {
-        let upper = |&(j, _): &(usize, &f64)| j > i;
-        let mut columns: Vec<usize> =
-            matrix.row(i).filter(upper).chain(transpose.row(i).filter(upper)).map(|(j, _)| j).collect();
-        columns.sort_unstable();
-        columns.dedup();
-        let pairs: Vec<Pair> = columns
-            .into_iter()
-            .map(|j| {
-                let (upper, lower) = (matrix.at(i, j), transpose.at(i, j));
-                let edge = edges.binary_search(&[i, j]).ok();
-                let threshold = scales.entry(i, upper, edge).plus(scales.entry(j, lower, edge));
-                Pair { i, j, difference: upper - lower, threshold }
-            })
-            .collect();
-        pairs
-    })
+/// The pairs at which something is stored on either side of the diagonal.
+pub(super) struct Pairs<'a> {
+    trial: &'a Trial<'a>,
+    /// The transpose, where an entry has no mirror image: without it such a pair is found from its smaller vertex only.
+    transpose: Option<Csr>,
+}
+
+impl<'a> Pairs<'a> {
+    /// Of the operator on trial. Cost: O(nnz log(row length)).
+    pub fn of(trial: &'a Trial) -> Self {
+        // Computed before threads ask for them.
+        trial.scales();
+        let matrix = trial.operator.stiffness();
+        let mirrored = |i: usize| matrix.row_slices(i).0.iter().all(|&j| j > i || matrix.get(j, i).is_some());
+        let all = parallel::blocks(matrix.rows(), |mut rows| rows.all(mirrored)).into_iter().all(|block| block);
+        Pairs { trial, transpose: (!all).then(|| matrix.transpose()) }
+    }
+
+    /// The pairs whose smaller vertex is i, by the larger one.
+    pub fn of_row(&self, i: usize, mut look: impl FnMut(Pair)) {
+        let matrix = self.trial.operator.stiffness();
+        let (scales, stencil) = (self.trial.scales(), self.trial.stencil());
+        let mut see = |j: usize, link: Link, upper: f64, lower: f64| {
+            let threshold = scales.entry(i, upper, link.edge()).plus(scales.entry(j, lower, link.edge()));
+            look(Pair { i, j, difference: upper - lower, threshold });
+        };
+        let above = |m: &Csr| m.row_slices(i).0.partition_point(|&j| j <= i);
+        let (columns, values) = matrix.row_slices(i);
+        let (columns, values) = (&columns[above(matrix)..], &values[above(matrix)..]);
+        let Some(transpose) = &self.transpose else {
+            for ((&j, &upper), link) in columns.iter().zip(values).zip(stencil.along(i, columns)) {
+                see(j, link, upper, matrix.at(j, i));
+            }
+            return;
+        };
+        // Both rows are walked at once, whichever column comes first.
+        let (mirror, mirrored) = transpose.row_slices(i);
+        let (mut a, mut b) = (0, above(transpose));
+        while let Some(j) = columns.get(a).into_iter().chain(mirror.get(b)).min().copied() {
+            let (mut upper, mut lower) = (0.0, 0.0);
+            if columns.get(a) == Some(&j) {
+                (upper, a) = (values[a], a + 1);
+            }
+            if mirror.get(b) == Some(&j) {
+                (lower, b) = (mirrored[b], b + 1);
+            }
+            let link = stencil.along(i, &[j]).next().unwrap_or(Link::Far);
+            see(j, link, upper, lower);
+        }
+    }
 }

@@ -3,6 +3,7 @@
 use std::sync::OnceLock;
 
 use super::measure::rounding::Rounding;
+use super::measure::weights::Surveys;
 use super::stencil::Stencil;
 use super::tolerance::Scales;
 use super::{Level, Verdict};
@@ -22,6 +23,7 @@ pub struct Trial<'a> {
     rounding: OnceLock<Rounding>,
     stencil: OnceLock<Stencil>,
     finite: OnceLock<bool>,
+    surveys: OnceLock<Surveys>,
 }
 
 /// Matrix and domain do not belong together.
@@ -61,7 +63,8 @@ impl<'a> Trial<'a> {
             return Err(SizeMismatch { rows, vertices, hint });
         }
         let (scales, rounding, stencil) = (OnceLock::new(), OnceLock::new(), OnceLock::new());
-        Ok(Trial { domain, operator, seed, scales, rounding, stencil, finite: OnceLock::new() })
+        let (finite, surveys) = (OnceLock::new(), OnceLock::new());
+        Ok(Trial { domain, operator, seed, scales, rounding, stencil, finite, surveys })
     }
 
     /// The scales that thresholds are relative to.
@@ -72,6 +75,11 @@ impl<'a> Trial<'a> {
     /// The thresholds of rows where their neighbours count.
     pub(crate) fn rounding(&self) -> &Rounding {
         self.rounding.get_or_init(|| Rounding::of(self))
+    }
+
+    /// What the signs of the weights come to.
+    pub(crate) fn surveys(&self) -> &Surveys {
+        self.surveys.get_or_init(|| Surveys::of(self))
     }
 
     /// Whether the signs of weights are read off the matrix: a construction vouches for them, or the weights do not come out of a
@@ -107,7 +115,7 @@ impl<'a> Trial<'a> {
     /// Whether every entry of both matrices is a finite number: what every property but FIN takes for granted.
     pub fn is_finite(&self) -> bool {
         *self.finite.get_or_init(|| {
-            let finite = |m: &Csr| m.entries().all(|(_, _, v)| v.is_finite());
+            let finite = |m: &Csr| m.values().iter().all(|v| v.is_finite());
             finite(self.operator.stiffness()) && self.operator.mass().is_none_or(|m| finite(m.matrix()))
         })
     }

@@ -3,6 +3,7 @@
 use std::cmp::Ordering;
 
 use lapjury::domain::geometry::cotangent;
+use lapjury::domain::topology::Corner;
 use lapjury::domain::{Domain, Surface};
 use lapjury::laplacian::{cotan, mass, wachspress};
 use lapjury::linalg::Csr;
@@ -28,7 +29,7 @@ fn is_zero(x: &Rational) -> bool {
 
 fn area(surface: &Surface) -> Rational {
     let p = surface.planar_positions::<Rational>().unwrap();
-    let doubled = |f: &Vec<usize>| lapjury::domain::geometry::doubled_area(&p[f[0]], &p[f[1]], &p[f[2]]).magnitude();
+    let doubled = |f: &[usize]| lapjury::domain::geometry::doubled_area(&p[f[0]], &p[f[1]], &p[f[2]]).magnitude();
     surface.faces().iter().map(doubled).fold(Rational::zero(), |sum, a| sum + a) * Rational::half()
 }
 
@@ -84,12 +85,13 @@ fn the_star_formula_gives_both_twins() {
     let domain = Domain::from(surface.clone());
     for i in domain.interior() {
         let star = surface.topology().star(i);
-        let (face, corner) = star[0];
-        let mut ring = vec![surface.faces()[face][(corner + 1) % 3]];
+        let after = |corner: &Corner| corner.neighbours(surface.faces())[0];
+        let before = |corner: &Corner| corner.neighbours(surface.faces())[1];
+        let mut ring = vec![after(&star[0])];
         for _ in 1..star.len() {
             let last = *ring.last().unwrap();
-            let next = star.iter().find(|&&(f, k)| surface.faces()[f][(k + 1) % 3] == last).unwrap();
-            ring.push(surface.faces()[next.0][(next.1 + 2) % 3]);
+            let next = star.iter().find(|&corner| after(corner) == last).unwrap();
+            ring.push(before(next));
         }
         let n = ring.len();
         let v = |k: usize| &p[ring[k % n]];

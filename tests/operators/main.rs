@@ -6,6 +6,7 @@ mod identities;
 mod masses;
 mod meshes;
 mod refusals;
+mod rows;
 mod tets;
 
 use std::collections::BTreeMap;

@@ -9,7 +9,7 @@ const KINDS: [&str; 4] = ["barycentric", "voronoi", "mixed", "consistent"];
 
 /// The area by Heron's formula as Kahan writes it: another way than cross products.
 fn heron(surface: &Surface) -> f64 {
-    let area = |f: &Vec<usize>| {
+    let area = |f: &[usize]| {
         let side = |a: usize, b: usize| (surface.point(f[a]) - surface.point(f[b])).norm();
         let mut s = [side(0, 1), side(1, 2), side(2, 0)];
         s.sort_by(|x, y| y.total_cmp(x));

@@ -85,7 +85,7 @@ pub fn positions(mut e: Excerpt, domain: &Domain, which: &[usize]) -> Excerpt {
 }
 
 pub fn faces(mut e: Excerpt, domain: &Domain, which: &[usize]) -> Excerpt {
-    e.faces = which.iter().map(|&f| (f, domain.as_surface().unwrap().faces()[f].clone())).collect();
+    e.faces = which.iter().map(|&f| (f, domain.as_surface().unwrap().faces()[f].to_vec())).collect();
     e
 }
 

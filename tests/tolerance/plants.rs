@@ -224,7 +224,7 @@ fn energy_sizes(w: &World) -> Sizes {
     let squared = |i: usize| w.l.row(i).map(|(j, v)| 0.5 * v.abs() * length(w, i, j).powi(2)).sum::<f64>();
     let area: f64 = w.mass.iter().sum();
     let expected = if w.rim.is_some() { area } else { 2.0 * area };
-    let of_area = |f: &Vec<usize>| w.factors(3, f.iter().map(|&v| w.q[v]).fold(f64::INFINITY, f64::min));
+    let of_area = |f: &[usize]| w.factors(3, f.iter().map(|&v| w.q[v]).fold(f64::INFINITY, f64::min));
     let faces =
         |k: usize| w.surface.faces().iter().map(|f| of_area(f)[k]).sum::<f64>() / w.surface.faces().len() as f64;
     let sum = |k: usize| (0..w.l.rows()).map(|i| w.row(i)[k] * squared(i)).sum::<f64>() + faces(k) * area;

@@ -81,7 +81,7 @@ impl World {
     pub fn opened(&self) -> (Self, usize) {
         let topology = self.surface.topology();
         let b = self.j;
-        let star: BTreeSet<usize> = topology.star(b).iter().map(|s| s.0).collect();
+        let star: BTreeSet<usize> = topology.star(b).iter().map(|s| s.face()).collect();
         let c = self.c;
         let kept = |f: &usize| !star.contains(f) || self.surface.faces()[*f].contains(&c);
         let faces: Vec<[usize; 3]> =
@@ -117,7 +117,7 @@ impl World {
         let edge = self.surface.topology().edge_between(i, j).unwrap();
         let at = |v: usize| self.surface.positions()[v];
         let rho: f64 = self.surface.opposite(edge).iter().map(|(_, v)| sine(at(*v), at(i), at(j)).powi(-2)).sum();
-        let of_faces = self.surface.topology().star(i).iter().map(|s| &self.surface.faces()[s.0]);
+        let of_faces = self.surface.topology().star(i).iter().map(|s| &self.surface.faces()[s.face()]);
         let near = of_faces.filter(|f| f.contains(&j));
         let sines = near.flat_map(|f| (0..3).map(move |k| [f[k], f[(k + 1) % 3], f[(k + 2) % 3]]));
         let q = sines.map(|[a, b, c]| 1.0 / sine(at(a), at(b), at(c))).fold(1.0, f64::max);

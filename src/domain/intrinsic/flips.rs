@@ -19,12 +19,18 @@ impl IntrinsicTriangulation<'_> {
     /// Flips until every interior edge is Delaunay; returns the number of flips. Edges wait in a queue that starts in their
     /// order, so the result depends on nothing else. A flip costs O(1), plus exact arithmetic where rounding could decide.
     pub fn make_delaunay(&mut self) -> usize {
+        self.make_delaunay_knowing(|_| None)
+    }
+
+    /// The same where the exact sign of the cotangent sum is `known` of edges of the surface, as far as it is: it is asked for
+    /// those between two triangles that no flip has touched. What becomes of the triangulation does not depend on it.
+    pub fn make_delaunay_knowing(&mut self, known: impl Fn(usize) -> Option<Ordering>) -> usize {
         let before = self.flips;
         let mut queue: VecDeque<usize> = (0..self.edge_count()).collect();
         let mut queued = vec![true; self.edge_count()];
         while let Some(edge) = queue.pop_front() {
             queued[edge] = false;
-            let Some(around) = self.improve(edge) else { continue };
+            let Some(around) = self.improve(edge, &known) else { continue };
             for side in around.map(|h| h / 2) {
                 if !std::mem::replace(&mut queued[side], true) {
                     queue.push_back(side);
@@ -35,15 +41,22 @@ impl IntrinsicTriangulation<'_> {
     }
 
     /// Flips the edge if it is not Delaunay; returns the half-edges of the four sides around it.
-    fn improve(&mut self, edge: usize) -> Option<[usize; 4]> {
+    fn improve(&mut self, edge: usize, known: impl Fn(usize) -> Option<Ordering>) -> Option<[usize; 4]> {
         let (h, t) = (2 * edge, 2 * edge + 1);
         let (f, g) = (self.face[h], self.face[t]);
         // The two angles opposite an edge within a single triangle add up to less than π.
         if f == NONE || g == NONE || f == g {
             return None;
         }
+        let sign = if self.touched[edge] { None } else { known(edge) };
+        if sign.is_some_and(|sign| sign != Ordering::Less) {
+            return None;
+        }
         let straight = self.is_straight(f) && self.is_straight(g);
-        let violated = if straight { self.exact_sign(edge) == Ordering::Less } else { self.is_clearly_negative(edge) };
+        let violated = match straight {
+            true => sign.unwrap_or_else(|| self.exact_sign(edge)) == Ordering::Less,
+            false => self.is_clearly_negative(edge),
+        };
         if !violated {
             return None;
         }
@@ -138,8 +151,9 @@ impl IntrinsicTriangulation<'_> {
         let (left, right) = (self.face[h], self.face[t]);
         (self.face[ad], self.face[bc]) = (left, right);
         let straight = self.is_planar();
-        self.faces[left] = Face { first: h, doubled_area: flipped.areas[0], straight };
-        self.faces[right] = Face { first: t, doubled_area: flipped.areas[1], straight };
+        self.faces[left] = Face { first: h, doubled_area: flipped.areas[0], straight, source: NONE };
+        self.faces[right] = Face { first: t, doubled_area: flipped.areas[1], straight, source: NONE };
+        [edge, bc / 2, ca / 2, ad / 2, db / 2].into_iter().for_each(|e| self.touched[e] = true);
         self.length[edge] = flipped.length;
         self.flips += 1;
     }

@@ -125,7 +125,7 @@ fn non_convex_discs(small: &[Small]) -> Vec<Answer> {
 fn bitten(surface: &Surface, text: &str) -> Option<Answer> {
     let topology = surface.topology();
     let inner = |v: &usize| !topology.boundary_vertices()[*v];
-    let at_rim = |f: &Vec<usize>| {
+    let at_rim = |f: &[usize]| {
         f.iter().filter(|v| inner(v)).count() == 1 && {
             let rim: Vec<usize> = f.iter().copied().filter(|v| !inner(v)).collect();
             topology.edge_between(rim[0], rim[1]).is_some_and(|e| topology.is_boundary_edge(e))

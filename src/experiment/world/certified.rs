@@ -11,7 +11,7 @@ use crate::scalar::Rational;
 pub fn whole(surface: &Surface) -> Excerpt {
     Excerpt {
         positions: surface.positions().iter().copied().enumerate().collect(),
-        faces: surface.faces().iter().cloned().enumerate().collect(),
+        faces: surface.faces().iter().map(<[usize]>::to_vec).enumerate().collect(),
         ..Excerpt::default()
     }
 }

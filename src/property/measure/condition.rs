@@ -9,6 +9,7 @@
 
 use crate::domain::geometry::{self, Vec3};
 use crate::domain::{Domain, Surface, Volume};
+use crate::linalg::parallel;
 
 /// Beyond this an element is as good as degenerate in `f64`.
 const WORST: f64 = 1e18;
@@ -101,6 +102,8 @@ pub(crate) struct Triangles {
     pub opposite: Vec<f64>,
     /// At each vertex `σ = Σ ½ (cot θ_b + cot θ_c)`, the diagonal of the cotangent Laplacian.
     pub pull: Vec<f64>,
+    /// The triangles.
+    pub faces: Vec<Element>,
 }
 
 impl Condition {
@@ -136,27 +139,69 @@ impl Condition {
     }
 }
 
+/// Gathered vertex by vertex over the faces around it, and edge by edge over those beside it, in face order.
 fn of_surface(surface: &Surface) -> Condition {
-    let (n, edges) = (surface.positions().len(), surface.topology().edges().len());
-    let mut condition = Condition::perfect(n);
-    let mut t = Triangles { edge_condition: vec![1.0; edges], opposite: vec![0.0; edges], pull: vec![0.0; n] };
-    for (face, corners) in surface.faces().iter().enumerate() {
-        let shape = Shape::of_face(surface, face);
-        let q = shape.map(|s| s.condition()).or_else(|| of_polygon(surface, face));
-        let side = |k: usize| (surface.positions()[corners[k]], surface.positions()[corners[(k + 1) % corners.len()]]);
-        let sides = (0..corners.len()).map(|k| distance(side(k).0, side(k).1));
-        condition.add(corners, q, sides.fold(f64::INFINITY, f64::min));
-        let (Some(shape), Some(q)) = (shape, q) else { continue };
-        for (corner, &v) in corners.iter().enumerate() {
-            t.pull[v] += shape.pull[corner];
-            let (b, c) = (corners[(corner + 1) % 3], corners[(corner + 2) % 3]);
-            if let Some(edge) = surface.topology().edge_between(b, c) {
-                t.opposite[edge] += shape.inverse_sine[corner].powi(2);
-                t.edge_condition[edge] = t.edge_condition[edge].max(q);
+    let topology = surface.topology();
+    let faces = parallel::collect(surface.faces().len(), |face| Element::of(surface, face));
+    let (n, edges) = (surface.positions().len(), topology.edges().len());
+    let at_vertex = |v: usize| topology.star(v).iter().map(|c| (&faces[c.face()], c.corner()));
+    // Condition, shortest side, whether one is degenerate, pull: each star is walked once.
+    let around = |v: usize| {
+        let (mut worst, mut shortest, mut degenerate, mut pull) = (1.0, f64::INFINITY, false, 0.0);
+        for (face, corner) in at_vertex(v) {
+            shortest = f64::min(shortest, face.shortest);
+            match face.condition {
+                Some(q) => worst = f64::max(worst, q),
+                None => degenerate = true,
+            }
+            if let Some(shape) = &face.shape {
+                pull += shape.pull[corner];
             }
         }
+        (worst, shortest, degenerate, pull)
+    };
+    let beside = |e: usize| {
+        let (mut worst, mut squares) = (1.0, 0.0);
+        for side in topology.sides(e) {
+            let face = &faces[side.face()];
+            if let (Some(shape), Some(q)) = (&face.shape, face.condition) {
+                worst = f64::max(worst, q);
+                squares += shape.inverse_sine[(side.corner() + 2) % 3].powi(2);
+            }
+        }
+        (worst, squares)
+    };
+    let mut condition = Condition::perfect(n);
+    let mut pull = vec![0.0; n];
+    for (v, found) in parallel::collect(n, around).into_iter().enumerate() {
+        (condition.vertices[v], condition.shortest[v], condition.degenerate[v], pull[v]) = found;
     }
-    Condition { triangles: surface.is_triangulated().then_some(t), ..condition }
+    if surface.is_triangulated() {
+        let (edge_condition, opposite) = parallel::collect(edges, beside).into_iter().unzip();
+        condition.triangles = Some(Triangles { edge_condition, opposite, pull, faces });
+    }
+    condition
+}
+
+/// What the vertices and edges of a face gather from it; of a polygon with more corners there is no shape.
+#[derive(Clone, Debug)]
+pub(crate) struct Element {
+    /// Its shape, if it is a proper triangle.
+    pub shape: Option<Shape>,
+    /// Its condition; `None` if it is degenerate.
+    pub condition: Option<f64>,
+    shortest: f64,
+}
+
+impl Element {
+    fn of(surface: &Surface, face: usize) -> Self {
+        let corners = &surface.faces()[face];
+        let at = |k: usize| surface.positions()[corners[if k == corners.len() { 0 } else { k }]];
+        let shortest = (0..corners.len()).map(|k| distance(at(k), at(k + 1))).fold(f64::INFINITY, f64::min);
+        let shape = Shape::of_face(surface, face);
+        let condition = shape.as_ref().map(Shape::condition).or_else(|| of_polygon(surface, face));
+        Element { shape, condition, shortest }
+    }
 }
 
 /// The condition of a face with more than three corners; `None` for a triangle or a polygon without area.

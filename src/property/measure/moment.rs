@@ -42,16 +42,16 @@ pub(crate) fn witness(
 /// The axes of a planar surface in the order that makes its faces counter-clockwise.
 pub(crate) fn oriented_axes(surface: &Surface) -> Option<[usize; 2]> {
     let [a, b] = surface.plane()?;
-    let turns = (0..surface.faces().len()).flat_map(|f| turns(surface, f, [a, b]));
-    let clockwise = turns.into_iter().find(|t| t.is_ne()).is_some_and(|t| t.is_lt());
+    let mut turns = (0..surface.faces().len()).flat_map(|f| turns(surface, f, [a, b]));
+    let clockwise = turns.find(|t| t.is_ne()).is_some_and(|t| t.is_lt());
     Some(if clockwise { [b, a] } else { [a, b] })
 }
 
 /// The exact orientations in a coordinate plane of the triangles that fan out from the first corner of a face.
-fn turns(surface: &Surface, face: usize, axes: [usize; 2]) -> Vec<std::cmp::Ordering> {
-    let at = |v: usize| axes.map(|a| surface.positions()[v][a]);
+fn turns(surface: &Surface, face: usize, axes: [usize; 2]) -> impl Iterator<Item = std::cmp::Ordering> + '_ {
+    let at = move |v: usize| axes.map(|a| surface.positions()[v][a]);
     let corners = &surface.faces()[face];
-    corners[1..].windows(2).map(|w| orient2d(at(corners[0]), at(w[0]), at(w[1]))).collect()
+    corners[1..].windows(2).map(move |w| orient2d(at(corners[0]), at(w[0]), at(w[1])))
 }
 
 /// A triangle of the fan of a face that is not degenerate, if there is one.
@@ -64,23 +64,20 @@ fn proper_triangle(surface: &Surface, face: usize) -> Option<[usize; 3]> {
 
 /// Whether faces are around a vertex as on a manifold, none of them degenerate: `boundary_edges` edges at the vertex have one
 /// face, all others two.
-pub(crate) fn is_proper_star(surface: &Surface, vertex: usize, boundary_edges: usize) -> bool {
+pub(crate) fn is_proper_star(trial: &Trial, surface: &Surface, vertex: usize, boundary_edges: usize) -> bool {
     let topology = surface.topology();
     let star = topology.star(vertex);
-    let mut edges = Vec::new();
-    for &(face, corner) in star {
-        let corners = &surface.faces()[face];
-        for other in [corners[(corner + 1) % corners.len()], corners[(corner + corners.len() - 1) % corners.len()]] {
-            edges.extend(topology.edge_between(vertex, other));
-        }
+    let proper = || match surface.is_triangulated() {
+        true => !trial.scales().geometry().degenerate[vertex],
+        false => star.iter().all(|c| proper_triangle(surface, c.face()).is_some()),
+    };
+    let (mut all, mut ones, mut twos) = (0, 0, 0);
+    for edge in trial.stencil().edges(vertex) {
+        all += 1;
+        ones += usize::from(topology.sides(edge).len() == 1);
+        twos += usize::from(topology.sides(edge).len() == 2);
     }
-    edges.sort_unstable();
-    edges.dedup();
-    let with = |faces: usize| edges.iter().filter(|&&e| topology.sides(e).len() == faces).count();
-    !star.is_empty()
-        && with(1) == boundary_edges
-        && with(1) + with(2) == edges.len()
-        && star.iter().all(|&(face, _)| proper_triangle(surface, face).is_some())
+    !star.is_empty() && ones == boundary_edges && ones + twos == all && proper()
 }
 
 /// Whether the star of a vertex lies unfolded in a plane, decided exactly: all its vertices are coplanar, and its faces have
@@ -88,16 +85,22 @@ pub(crate) fn is_proper_star(surface: &Surface, vertex: usize, boundary_edges: u
 pub(crate) fn is_flat_star(surface: &Surface, vertex: usize) -> bool {
     let star = surface.topology().star(vertex);
     let at = |v: usize| surface.positions()[v];
-    let Some([a, b, c]) = star.first().and_then(|&(face, _)| proper_triangle(surface, face)) else { return false };
-    let coplanar = |v: usize| orient3d(at(a), at(b), at(c), at(v)).is_eq();
-    if !star.iter().all(|&(face, _)| surface.faces()[face].iter().all(|&v| coplanar(v))) {
+    let Some([a, b, c]) = star.first().and_then(|corner| proper_triangle(surface, corner.face())) else { return false };
+    // Points of one coordinate plane are coplanar without a determinant, which would be zero the slow way.
+    let level = |v: usize| (0..3).any(|k| [a, b, c].iter().all(|&w| at(w)[k] == at(v)[k]));
+    let coplanar = |v: usize| [a, b, c].contains(&v) || level(v) || orient3d(at(a), at(b), at(c), at(v)).is_eq();
+    if !star.iter().all(|corner| surface.faces()[corner.face()].iter().all(|&v| coplanar(v))) {
         return false;
     }
     let project = |axes: [usize; 2], v: usize| axes.map(|k| at(v)[k]);
     let faithful = |axes: &[usize; 2]| orient2d(project(*axes, a), project(*axes, b), project(*axes, c)).is_ne();
     let Some(axes) = [[0, 1], [1, 2], [2, 0]].into_iter().find(faithful) else { return false };
-    let turns: Vec<_> = star.iter().flat_map(|&(face, _)| turns(surface, face, axes)).collect();
-    !(turns.iter().any(|t| t.is_gt()) && turns.iter().any(|t| t.is_lt()))
+    let (mut left, mut right) = (false, false);
+    for turn in star.iter().flat_map(|corner| turns(surface, corner.face(), axes)) {
+        left |= turn.is_gt();
+        right |= turn.is_lt();
+    }
+    !(left && right)
 }
 
 /// For each vertex of a volume, whether the tetrahedra around it are in place: none degenerate, and the two at each triangle
@@ -135,17 +138,37 @@ pub(crate) fn proper_balls(volume: &Volume) -> Vec<bool> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::linalg::Csr;
+    use crate::operator::{Operator, Provenance};
 
     fn fan(z: f64) -> Surface {
         let p = vec![[0.0, 0.0, z], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0]];
         Surface::triangles(p, &[[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 1]]).unwrap()
     }
 
+    fn is_proper(surface: Surface, vertex: usize, boundary_edges: usize) -> bool {
+        let n = surface.positions().len();
+        let domain = crate::Domain::from(surface);
+        let operator = Operator::new(Csr::diagonal(&vec![1.0; n]), Provenance::default()).unwrap();
+        let trial = Trial::new(&domain, &operator, 0).unwrap();
+        is_proper_star(&trial, domain.as_surface().unwrap(), vertex, boundary_edges)
+    }
+
+    #[test]
+    fn a_star_with_a_degenerate_or_a_third_face_is_not_proper() {
+        let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [2.0, 0.0]];
+        let with = |face: [usize; 3]| Surface::planar(&square, &[[0, 1, 2], [0, 2, 3], face]).unwrap();
+        assert!(is_proper(with([1, 4, 2]), 1, 2) && !is_proper(with([0, 1, 4]), 1, 2));
+        assert!(!is_proper(with([0, 2, 4]), 0, 2) && !is_proper(with([0, 2, 4]), 0, 3));
+        let pentagon = Surface::new(square.map(|[x, y]| [x, y, 0.0]).to_vec(), vec![vec![0, 1, 4, 2, 3]]).unwrap();
+        assert!(is_proper(pentagon, 4, 2));
+    }
+
     #[test]
     fn a_star_is_flat_until_its_centre_is_lifted_by_the_smallest_number() {
-        assert!(is_flat_star(&fan(0.0), 0) && is_proper_star(&fan(0.0), 0, 0));
+        assert!(is_flat_star(&fan(0.0), 0) && is_proper(fan(0.0), 0, 0));
         assert!(!is_flat_star(&fan(5e-324), 0));
-        assert!(is_proper_star(&fan(0.0), 1, 2) && !is_proper_star(&fan(0.0), 1, 0));
+        assert!(is_proper(fan(0.0), 1, 2) && !is_proper(fan(0.0), 1, 0));
     }
 
     #[test]

@@ -6,6 +6,7 @@
 //! relative to the row scale s_i.
 
 use super::tolerance::{Sign, Threshold};
+use crate::linalg::parallel;
 use crate::property::Trial;
 
 /// What rounding explains, row by row.
@@ -22,17 +23,32 @@ impl Rounding {
     /// Of the operator on trial; kept by [`Trial::rounding`]. Cost: O(nnz).
     pub fn of(trial: &Trial) -> Self {
         let (matrix, at) = (trial.operator.stiffness(), trial.scales().geometry());
-        let near = |i: usize| matrix.row(i).map(|(j, _)| j).chain([i]);
-        let rows = 0..matrix.rows();
-        let quality: Vec<f64> = rows.clone().map(|i| near(i).map(|j| at.vertices[j]).fold(1.0, f64::max)).collect();
-        Rounding {
-            rows: rows.clone().map(|i| Threshold::over(1.0, matrix.row(i).len(), quality[i])).collect(),
+        let row = |i: usize| {
+            let (mut q, mut shortest, mut degenerate) = (1.0, f64::INFINITY, false);
+            let columns = matrix.row_slices(i).0;
+            for &j in columns.iter().chain([&i]) {
+                q = f64::max(q, at.vertices[j]);
+                shortest = f64::min(shortest, at.shortest[j]);
+                degenerate |= at.degenerate[j];
+            }
+            (Threshold::over(1.0, columns.len(), q), q, shortest, degenerate)
+        };
+        let n = matrix.rows();
+        let mut rounding = Rounding {
+            rows: Vec::with_capacity(n),
             scales: trial.scales().rows.clone(),
-            shortest: rows.clone().map(|i| near(i).map(|j| at.shortest[j]).fold(f64::INFINITY, f64::min)).collect(),
-            degenerate: rows.map(|i| near(i).any(|j| at.degenerate[j])).collect(),
+            quality: Vec::with_capacity(n),
+            shortest: Vec::with_capacity(n),
+            degenerate: Vec::with_capacity(n),
             literal: trial.has_literal_signs(),
-            quality,
+        };
+        for (threshold, q, shortest, degenerate) in parallel::collect(n, row) {
+            rounding.rows.push(threshold);
+            rounding.quality.push(q);
+            rounding.shortest.push(shortest);
+            rounding.degenerate.push(degenerate);
         }
+        rounding
     }
 
     /// The thresholds of row i, relative to its scale.

@@ -2,7 +2,7 @@
 
 use super::compensated::Sum;
 use super::tolerance::{Threshold, agree};
-use crate::linalg::Csr;
+use crate::linalg::{Csr, parallel};
 
 /// Whether there is no negative weight in a row: every entry off the diagonal is at most zero.
 pub(crate) fn no_negative_weight(matrix: &Csr, i: usize) -> bool {
@@ -14,9 +14,14 @@ pub(crate) fn sum(matrix: &Csr, i: usize) -> f64 {
     matrix.row(i).map(|(_, v)| *v).sum()
 }
 
+/// The sum of a row, in twice the working precision.
+pub(crate) fn compensated_sum(matrix: &Csr, i: usize) -> f64 {
+    matrix.row_slices(i).1.iter().copied().collect::<Sum>().value()
+}
+
 /// The sum of each row, in twice the working precision.
 pub(crate) fn compensated_sums(matrix: &Csr) -> Vec<f64> {
-    (0..matrix.rows()).map(|i| matrix.row(i).map(|(_, v)| *v).collect::<Sum>().value()).collect()
+    parallel::collect(matrix.rows(), |i| compensated_sum(matrix, i))
 }
 
 /// Whether the row sum vanishes up to the rounding of a sum on the diagonal.

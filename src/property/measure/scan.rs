@@ -1,6 +1,7 @@
 //! Looking at one place after another and keeping the worst.
 
 use super::tolerance::{Judgement, Threshold};
+use crate::linalg::parallel;
 use crate::property::Verdict;
 use crate::property::evidence::{Evidence, Statement};
 use crate::property::verdict::{Level, Tally};
@@ -37,16 +38,48 @@ impl<P> Finding<P> {
 pub(crate) struct Scan<P> {
     tally: Tally,
     worst: Option<Finding<P>>,
+    /// Whether a margin is not a number: then which finding is the worst depends on where one begins.
+    unordered: bool,
+}
+
+impl<P: Send> Scan<P> {
+    /// The scan of `look(0), look(1), …`, block by block in parallel; the result is that of looking in order.
+    pub fn over(count: usize, look: impl Fn(usize, &mut Scan<P>) + Sync + Send) -> Self {
+        let whole = |range: std::ops::Range<usize>| {
+            let mut scan = Scan::new();
+            range.for_each(|k| look(k, &mut scan));
+            scan
+        };
+        let parts = parallel::blocks(count, whole);
+        if parts.iter().any(|part| part.unordered) {
+            return whole(0..count);
+        }
+        parts.into_iter().fold(Scan::new(), Scan::then)
+    }
 }
 
 impl<P> Scan<P> {
     pub fn new() -> Self {
-        Scan { tally: Tally::default(), worst: None }
+        Scan { tally: Tally::default(), worst: None, unordered: false }
+    }
+
+    /// What comes of looking at the places of both, those of `self` first.
+    fn then(mut self, other: Self) -> Self {
+        self.tally.total += other.tally.total;
+        self.tally.undecided += other.tally.undecided;
+        self.tally.violations += other.tally.violations;
+        match (&self.worst, other.worst) {
+            (Some(worst), Some(found)) if !found.worse_than(worst) => {}
+            (_, Some(found)) => self.worst = Some(found),
+            (_, None) => {}
+        }
+        self
     }
 
     /// Looks at a place. Of equally bad ones the first is kept.
     pub fn look(&mut self, place: P, residual: f64, threshold: Threshold) {
         let finding = Finding { place, residual, threshold };
+        self.unordered |= finding.margin().is_nan();
         self.tally.total += 1;
         match finding.judgement() {
             Judgement::Explained => {}
@@ -130,6 +163,19 @@ mod tests {
         assert_eq!(fails.evidence().unwrap().statement, Statement::RowSum { i: 3, threshold: 10.0 });
         assert_eq!(fails.tally, Some(Tally { violations: 3, zeros: 0, undecided: 1, total: 5 }));
         assert_eq!(fails.margin, Some(20.0));
+    }
+
+    #[test]
+    fn scanning_in_blocks_is_scanning_in_order_even_where_a_margin_is_no_number() {
+        let t = |explained: f64| Threshold { explained, defect: 8.0 * explained };
+        for odd in [None, Some(3), Some(4096), Some(9000)] {
+            let residual = |k: usize| if odd == Some(k) { f64::NAN } else { ((k * 7919) % 1009) as f64 };
+            let look = |k: usize, scan: &mut Scan<usize>| scan.look(k, residual(k), t(1.0 + (k % 3) as f64));
+            let (mut one, all) = (Scan::new(), Scan::over(10_000, look));
+            (0..10_000).for_each(|k| look(k, &mut one));
+            let place = |s: &Scan<usize>| s.worst.as_ref().map(|w| (w.place, w.residual.to_bits()));
+            assert_eq!((one.tally, place(&one)), (all.tally, place(&all)), "{odd:?}");
+        }
     }
 
     #[test]

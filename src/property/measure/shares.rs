@@ -11,10 +11,11 @@
 //! `[min(¼, f), max(½, f)]·A`, and the share of a vertex between the sums of these over its star.
 
 use super::compensated::Sum;
-use super::condition::Shape;
+use super::condition::{Element, Shape};
 use super::tolerance::{Scales, Threshold, UNIT_ROUNDOFF};
 use crate::domain::geometry::orient3d;
 use crate::domain::{Surface, geometry};
+use crate::linalg::parallel;
 
 /// The shares of one vertex.
 #[derive(Clone, Copy, Debug, Default)]
@@ -52,62 +53,76 @@ fn mixed(shape: &Shape, corner: usize) -> f64 {
     }
 }
 
-/// The shares of all vertices. Degenerate faces have none; of a polygon only the area of the star is known, and a share
-/// between nothing and that.
+/// The shares of all vertices, gathered over the faces around each in face order. Degenerate faces have none; of a polygon
+/// only the area of the star is known, and a share between nothing and that.
 pub(crate) fn of(surface: &Surface, scales: &Scales) -> Vec<Share> {
-    let mut shares = vec![Share::default(); surface.positions().len()];
-    let mut circumscribed = vec![0.0; shares.len()];
-    for (face, corners) in surface.faces().iter().enumerate() {
-        let shape = Shape::of_face(surface, face);
-        for (corner, &v) in corners.iter().enumerate() {
-            let s = &mut shares[v];
-            let Some(shape) = &shape else {
-                if corners.len() > 3 {
+    let topology = surface.topology();
+    let faces = surface.faces();
+    let known = scales.geometry().triangles.as_ref().map(|t| &t.faces);
+    let shape = |face: usize| match known {
+        Some(known) => known[face].shape,
+        None => Shape::of_face(surface, face),
+    };
+    parallel::collect(surface.positions().len(), |v| {
+        let (mut s, mut circumscribed) = (Share::default(), 0.0);
+        for at in topology.star(v) {
+            let (face, corner) = (at.face(), at.corner());
+            let Some(shape) = shape(face) else {
+                if faces[face].len() > 3 {
                     s.star += surface.face_area(face);
                     s.upper += surface.face_area(face);
                 }
                 continue;
             };
-            let part = voronoi(shape, corner);
+            let part = voronoi(&shape, corner);
             s.star += shape.area;
             s.third += shape.area / 3.0;
             s.voronoi += part;
-            s.mixed += mixed(shape, corner);
+            s.mixed += mixed(&shape, corner);
             s.lower += part.min(0.25 * shape.area);
             s.upper += part.max(0.5 * shape.area);
-            circumscribed[v] += shape.squared_length[corner] * shape.inverse_sine[corner].powi(2);
+            circumscribed += shape.squared_length[corner] * shape.inverse_sine[corner].powi(2);
         }
-    }
-    for (i, s) in shares.iter_mut().enumerate() {
-        let q = scales.condition(i);
-        s.threshold = Threshold::over(s.star, surface.topology().star(i).len(), q);
+        let q = scales.condition(v);
+        s.threshold = Threshold::over(s.star, topology.star(v).len(), q);
         // ⅛ b² cot β is off by ⅛ b²·8u/sin² β = u D², D the circumdiameter, in each of two terms; as much again for ours.
-        let explained = 4.0 * UNIT_ROUNDOFF * circumscribed[i];
+        let explained = 4.0 * UNIT_ROUNDOFF * circumscribed;
         s.voronoi_threshold = s.threshold.plus(Threshold { explained, defect: 4.0 * q * explained });
-    }
-    shares
+        s
+    })
 }
 
 /// The total area, and what a total is measured against as far as the area's own rounding goes.
-pub(crate) fn area(surface: &Surface) -> (f64, Threshold) {
+pub(crate) fn area(surface: &Surface, scales: &Scales) -> (f64, Threshold) {
     let mut total = Sum::default();
     let mut threshold = Threshold::NONE;
-    for face in 0..surface.faces().len() {
-        let shape = Shape::of_face(surface, face);
-        let corners = surface.faces()[face].len();
-        let area = match shape {
-            Some(shape) => shape.area,
-            None if corners == 3 => 0.0,
-            None => surface.face_area(face),
-        };
+    let mut add = |area: f64, corners: usize, q: f64| {
         total.add(area);
-        threshold = threshold.plus(Threshold::over(area, corners, shape.map_or(1.0, |s| s.condition())));
+        threshold = threshold.plus(Threshold::over(area, corners, q));
+    };
+    match &scales.geometry().triangles {
+        Some(triangles) => {
+            let area = |f: &Element| f.shape.map_or(0.0, |s| s.area);
+            triangles.faces.iter().for_each(|f| add(area(f), 3, f.condition.unwrap_or(1.0)));
+        }
+        None => {
+            for (face, corners) in surface.faces().iter().enumerate() {
+                match Shape::of_face(surface, face) {
+                    Some(shape) => add(shape.area, corners.len(), shape.condition()),
+                    None if corners.len() == 3 => add(0.0, 3, 1.0),
+                    None => add(surface.face_area(face), corners.len(), 1.0),
+                }
+            }
+        }
     }
     (total.value(), threshold)
 }
 
 /// Whether every face lies in a plane. Exact.
 pub(crate) fn has_planar_faces(surface: &Surface) -> bool {
+    if surface.is_triangulated() {
+        return true;
+    }
     let at = |v: usize| surface.positions()[v];
     surface.faces().iter().filter(|f| f.len() > 3).all(|f| {
         let fan = f[1..].windows(2).map(|w| [at(f[0]), at(w[0]), at(w[1])]);

@@ -67,8 +67,8 @@
 use super::condition::Condition;
 use super::stencil::Stencil;
 use crate::domain::{Domain, DomainKind};
-use crate::linalg::Csr;
 pub use crate::linalg::backward::UNIT_ROUNDOFF;
+use crate::linalg::{Csr, parallel};
 
 /// No residual above this share of its scale is ever called explained: half of the digits would be lost.
 pub const LARGEST_EXPLAINED: f64 = 1.0 / 1_048_576.0;
@@ -203,7 +203,7 @@ impl Scales {
         let condition = Condition::of(domain);
         let local = domain.kind() != DomainKind::Points;
         let leaves = |i| local && stencil.far_entries(stiffness, i).next().is_some();
-        let leaves_stencil: Vec<bool> = (0..stiffness.rows()).map(leaves).collect();
+        let leaves_stencil: Vec<bool> = parallel::collect(stiffness.rows(), leaves);
         let worst = condition.worst();
         let own = condition.vertices.iter().zip(&leaves_stencil);
         let measured = own.map(|(&q, &leaves)| if leaves { worst } else { q }).collect();

@@ -15,8 +15,10 @@
 //! vouches for its signs ([`Signs::Exact`](crate::operator::Signs::Exact)) is taken at its word, graphs are read literally; everywhere else a non-zero
 //! entry within its threshold ([`Scales::sign`](super::tolerance::Scales::sign)) has no clear sign.
 
+use super::stencil::Link;
 use super::tolerance::{Sign, Threshold};
-use crate::domain::{Domain, geometry};
+use crate::domain::{Domain, DomainKind, geometry};
+use crate::linalg::parallel;
 use crate::property::evidence::{Corner, Evidence, Statement};
 use crate::property::verdict::{Level, Tally};
 use crate::property::{Trial, Verdict, excerpt};
@@ -35,68 +37,136 @@ pub(crate) struct Weight {
 }
 
 /// An edge with its weights: one in each direction, or one where only one is defined.
-pub(crate) struct Edge {
+#[derive(Clone, Copy, Debug)]
+struct Edge {
     /// The number of the edge in the domain, if it is one.
-    pub number: Option<usize>,
+    number: Option<usize>,
+    first: Weight,
+    second: Option<Weight>,
+}
+
+impl Edge {
     /// Its weights, that of the smaller row first.
-    pub weights: Vec<Weight>,
+    fn weights(&self) -> impl Iterator<Item = &Weight> {
+        std::iter::once(&self.first).chain(&self.second)
+    }
 }
 
-/// All weights of an operator.
-pub(crate) struct Weights {
-    /// On interior edges and on pairs that are no edges.
-    pub interior: Vec<Edge>,
-    /// On boundary edges.
-    pub boundary: Vec<Edge>,
-    /// How many of the interior ones are on pairs that are no edges.
-    pub off_edges: usize,
+/// All weights of an operator: which there are is known, what they are is looked up when they are asked for.
+struct Weights<'a> {
+    trial: &'a Trial<'a>,
+    is_boundary: Vec<bool>,
+    /// Whether the operator has edges of its own: then one of the domain that it stores nothing at carries no weight.
+    own_edges: bool,
+    /// On pairs that are no edges.
+    beside: Vec<Edge>,
     /// Edges that carry no weight because the operator has edges of its own.
-    pub unweighted: usize,
+    unweighted: usize,
     /// Whether signs are read literally.
-    pub literal: bool,
+    literal: bool,
 }
 
-impl Weights {
-    /// Of the operator on trial. Cost: O(nnz log).
-    pub fn of(trial: &Trial) -> Self {
-        let (matrix, edges) = (trial.operator.stiffness(), trial.domain.edges());
-        let literal = trial.has_literal_signs();
-        let weight = |i: usize, j: usize, edge: Option<usize>| {
-            let value = -matrix.at(i, j);
-            let threshold = if literal { Threshold::NONE } else { trial.scales().sign(i, value, edge) };
-            Weight { i, j, value, threshold }
+/// Which edges.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Part {
+    /// Interior edges and pairs that are no edges.
+    Interior,
+    /// Boundary edges.
+    Boundary,
+    /// Interior edges with both ends on the boundary.
+    Bridges,
+}
+
+impl<'a> Weights<'a> {
+    /// Of the operator on trial. Cost: O(nnz log(row length)).
+    fn of(trial: &'a Trial) -> Self {
+        let (matrix, edges, scales) = (trial.operator.stiffness(), trial.domain.edges(), trial.scales());
+        let mut weights = Weights {
+            trial,
+            is_boundary: boundary_edges(trial.domain),
+            own_edges: (0..matrix.rows()).any(|i| scales.leaves_stencil(i)),
+            beside: Vec::new(),
+            unweighted: 0,
+            literal: trial.has_literal_signs(),
         };
-        let own_edges = (0..matrix.rows()).any(|i| trial.scales().leaves_stencil(i));
-        let is_boundary = boundary_edges(trial.domain);
-        let mut found = Weights { interior: Vec::new(), boundary: Vec::new(), off_edges: 0, unweighted: 0, literal };
-        for (number, &[i, j]) in edges.iter().enumerate() {
-            if own_edges && matrix.get(i, j).is_none() && matrix.get(j, i).is_none() {
-                found.unweighted += 1;
-                continue;
-            }
-            let number = Some(number);
-            let edge = Edge { number, weights: vec![weight(i, j, number), weight(j, i, number)] };
-            let list = if number.is_some_and(|e| is_boundary[e]) { &mut found.boundary } else { &mut found.interior };
-            list.push(edge);
+        weights.unweighted = (0..edges.len()).filter(|&e| !weights.carries(e)).count();
+        // Where no row leaves the stencil and no face has diagonals, every entry is on an edge.
+        let diagonals = trial.domain.as_surface().is_some_and(|s| !s.is_triangulated());
+        if !(weights.own_edges || diagonals || trial.domain.kind() == DomainKind::Points) {
+            return weights;
         }
-        for (i, j, v) in matrix.entries().filter(|&(i, j, v)| i != j && *v != 0.0) {
+        let beside = |rows: std::ops::Range<usize>| rows.flat_map(|i| weights.beside(i)).collect::<Vec<_>>();
+        let found = parallel::blocks(matrix.rows(), beside).concat();
+        Weights { beside: found, ..weights }
+    }
+
+    /// The weights of row i on pairs that are no edges, each pair with the smaller row that has one.
+    fn beside(&self, i: usize) -> impl Iterator<Item = Edge> {
+        let matrix = self.trial.operator.stiffness();
+        let row = self.trial.stencil().row(matrix, i);
+        let off_edges = row.filter(|&(_, v, link)| v != 0.0 && matches!(link, Link::Face | Link::Far));
+        off_edges.filter_map(move |(j, _, _)| {
             let opposite = matrix.at(j, i) != 0.0;
-            if (i > j && opposite) || edges.binary_search(&[i.min(j), i.max(j)]).is_ok() || *v == 0.0 {
-                continue;
+            let second = opposite.then(|| self.weight(j, i, None));
+            (i < j || !opposite).then(|| Edge { number: None, first: self.weight(i, j, None), second })
+        })
+    }
+
+    fn carries(&self, edge: usize) -> bool {
+        let ([i, j], matrix) = (self.trial.domain.edges()[edge], self.trial.operator.stiffness());
+        !self.own_edges || matrix.get(i, j).is_some() || matrix.get(j, i).is_some()
+    }
+
+    fn weight(&self, i: usize, j: usize, edge: Option<usize>) -> Weight {
+        let value = -self.trial.operator.stiffness().at(i, j);
+        let threshold = if self.literal { Threshold::NONE } else { self.trial.scales().sign(i, value, edge) };
+        Weight { i, j, value, threshold }
+    }
+
+    /// The edge with this number, those of the domain first; `None` where it carries no weight.
+    fn get(&self, k: usize) -> Option<Edge> {
+        let edges = self.trial.domain.edges();
+        let Some(&[i, j]) = edges.get(k) else { return self.beside.get(k - edges.len()).copied() };
+        let both = || (self.weight(i, j, Some(k)), self.weight(j, i, Some(k)));
+        self.carries(k).then(both).map(|(first, second)| Edge { number: Some(k), first, second: Some(second) })
+    }
+
+    /// Whether an edge belongs to a part.
+    fn belongs(&self, edge: &Edge, part: Part) -> bool {
+        let on_boundary = self.trial.domain.boundary();
+        let is_boundary = edge.number.is_some_and(|e| self.is_boundary[e]);
+        match part {
+            Part::Interior => !is_boundary,
+            Part::Boundary => is_boundary,
+            Part::Bridges => {
+                !is_boundary && edge.number.is_some() && on_boundary[edge.first.i] && on_boundary[edge.first.j]
             }
-            let mut weights = vec![weight(i, j, None)];
-            weights.extend(opposite.then(|| weight(j, i, None)));
-            found.interior.push(Edge { number: None, weights });
-            found.off_edges += 1;
         }
-        found
+    }
+
+    /// Surveys all parts, block by block in parallel, the blocks in order: each weight is looked up once.
+    fn surveys(&self) -> Surveys {
+        let count = self.trial.domain.edges().len() + self.beside.len();
+        let block = |range: std::ops::Range<usize>| {
+            let mut surveys = Surveys::default();
+            range.filter_map(|k| self.get(k)).for_each(|edge| surveys.each(|survey| survey.look(self, &edge)));
+            surveys
+        };
+        let mut surveys = Surveys::default();
+        for found in parallel::blocks(count, block) {
+            surveys.strict.add(self, found.strict);
+            surveys.weak.add(self, found.weak);
+            surveys.boundary.add(self, found.boundary);
+            surveys.bridges.add(self, found.bridges);
+        }
+        surveys
     }
 
     /// What a reader should know of how the weights were counted.
-    pub fn notes(&self) -> Vec<String> {
+    fn notes(&self) -> Vec<String> {
         let mut notes = Vec::new();
-        if self.off_edges > 0 {
-            notes.push(format!("{} weights are on pairs that are no edges of the domain", self.off_edges));
+        if !self.beside.is_empty() {
+            notes.push(format!("{} weights are on pairs that are no edges of the domain", self.beside.len()));
         }
         if self.unweighted > 0 {
             notes.push(format!(
@@ -142,7 +212,7 @@ pub(crate) enum Class {
 }
 
 /// The strict predicate `ω > 0`; a weight that rounding cannot tell from zero is open, for only an exact zero is one.
-pub(crate) fn strict(w: &Weight) -> Class {
+fn strict(w: &Weight) -> Class {
     match w.threshold.sign(w.value) {
         _ if w.value == 0.0 => Class::Zero,
         Sign::Zero | Sign::Open => Class::Open,
@@ -152,7 +222,7 @@ pub(crate) fn strict(w: &Weight) -> Class {
 }
 
 /// The weak predicate `ω ≥ 0`; what rounding explains is zero.
-pub(crate) fn weak(w: &Weight) -> Class {
+fn weak(w: &Weight) -> Class {
     match w.threshold.sign(w.value) {
         Sign::Zero => Class::Zero,
         Sign::Negative => Class::Violation,
@@ -161,78 +231,142 @@ pub(crate) fn weak(w: &Weight) -> Class {
     }
 }
 
-/// Decides a predicate on a list of edges, worst class first in `order`; the classes in `failing` make it fail.
-pub(crate) fn decide(
-    trial: &Trial,
-    edges: &[Edge],
-    literal: bool,
+/// Worst first: a negative weight, a zero, a sign that is not clear.
+const STRICT: [Class; 4] = [Class::Violation, Class::Zero, Class::Open, Class::Fine];
+
+/// Worst first: a negative weight, one that is open, a zero.
+const WEAK: [Class; 4] = [Class::Violation, Class::Open, Class::Zero, Class::Fine];
+
+/// What the edges of a part come to under a predicate.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Survey {
+    part: Part,
     class: fn(&Weight) -> Class,
     order: [Class; 4],
-    failing: &[Class],
-) -> Verdict {
-    let (tally, worst) = survey(trial, edges, class, order);
-    let level = if literal { Level::Exact } else { Level::Measured };
-    let verdict = match worst {
-        Some((found, number, w)) if failing.contains(&found) => {
-            Verdict::fails(level, witness(trial, number, &w, found == Class::Zero))
-        }
-        Some((Class::Open, _, w)) => Verdict::undecided(format!(
-            "the weight {:.2e} at ({}, {}), one of {}, is no larger than {:.2e}: rounding may have given it its sign",
-            w.value, w.i, w.j, tally.undecided, w.threshold.defect
-        )),
-        other => {
-            let worst = other.map_or_else(Vec::new, |(_, _, w)| vec![w.i, w.j]);
-            Verdict::holds(level, Evidence::bare(Statement::Scan { checked: tally.total, worst }))
-        }
-    };
-    let verdict = verdict.with_tally(tally);
-    if literal {
-        return verdict;
-    }
-    let weights = edges.iter().flat_map(|e| &e.weights);
-    verdict.with_margin(weights.map(|w| w.threshold.margin((-w.value).max(0.0))).fold(0.0, f64::max))
+    /// The classes, an edge being of its worse direction's.
+    pub tally: Tally,
+    /// The worst weight and its edge: that of the worst class which is the most negative relative to its row.
+    worst: Option<(Edge, Weight)>,
+    /// The largest margin of a negative weight.
+    margin: f64,
 }
 
-/// Counts the classes, an edge being of its worse direction's, and finds the worst weight: that of the worst class which is
-/// the most negative relative to its row.
-pub(crate) fn survey(
-    trial: &Trial,
-    edges: &[Edge],
-    class: fn(&Weight) -> Class,
-    order: [Class; 4],
-) -> (Tally, Option<(Class, Option<usize>, Weight)>) {
-    let rank = |c: Class| order.iter().position(|&o| o == c).unwrap_or(order.len());
-    let relative = |w: &Weight| if w.value == 0.0 { 0.0 } else { w.value / trial.scales().rows[w.i] };
-    let worse = |a: &Weight, b: &Weight| {
-        let (x, y) = (rank(class(a)), rank(class(b)));
+impl Survey {
+    fn new(part: Part, class: fn(&Weight) -> Class, order: [Class; 4]) -> Self {
+        Survey { part, class, order, tally: Tally::default(), worst: None, margin: 0.0 }
+    }
+
+    fn worse(&self, weights: &Weights, a: &Weight, b: &Weight) -> bool {
+        let scales = &weights.trial.scales().rows;
+        let rank = |w: &Weight| self.order.iter().position(|&o| o == (self.class)(w)).unwrap_or(self.order.len());
+        let relative = |w: &Weight| if w.value == 0.0 { 0.0 } else { w.value / scales[w.i] };
+        let (x, y) = (rank(a), rank(b));
         x < y || (x == y && relative(a) < relative(b))
-    };
-    let mut tally = Tally { total: edges.len(), ..Tally::default() };
-    let mut worst: Option<(&Edge, &Weight)> = None;
-    for edge in edges {
-        let Some(w) = edge.weights.iter().reduce(|a, b| if worse(b, a) { b } else { a }) else { continue };
-        match class(w) {
-            Class::Violation => tally.violations += 1,
-            Class::Zero => tally.zeros += 1,
-            Class::Open => tally.undecided += 1,
+    }
+
+    fn look(&mut self, weights: &Weights, edge: &Edge) {
+        if !weights.belongs(edge, self.part) {
+            return;
+        }
+        self.tally.total += 1;
+        self.margin = edge.weights().fold(self.margin, |m, w| m.max(w.threshold.margin((-w.value).max(0.0))));
+        let Some(w) = edge.weights().reduce(|a, b| if self.worse(weights, b, a) { b } else { a }) else { return };
+        match (self.class)(w) {
+            Class::Violation => self.tally.violations += 1,
+            Class::Zero => self.tally.zeros += 1,
+            Class::Open => self.tally.undecided += 1,
             Class::Fine => {}
         }
-        if worst.as_ref().is_none_or(|(_, known)| worse(w, known)) {
-            worst = Some((edge, w));
+        if self.worst.as_ref().is_none_or(|(_, known)| self.worse(weights, w, known)) {
+            self.worst = Some((*edge, *w));
         }
     }
-    // Where both directions say the same, the smaller end is named.
-    let first = |edge: &Edge, w: &Weight| {
-        edge.weights.iter().find(|v| v.value == w.value && class(v) == class(w)).copied().unwrap_or(*w)
-    };
-    (tally, worst.map(|(edge, w)| (class(w), edge.number, first(edge, w))))
+
+    /// What comes of looking at the edges of both, those of `self` first.
+    fn add(&mut self, weights: &Weights, later: Self) {
+        self.tally.total += later.tally.total;
+        self.tally.violations += later.tally.violations;
+        self.tally.zeros += later.tally.zeros;
+        self.tally.undecided += later.tally.undecided;
+        self.margin = self.margin.max(later.margin);
+        if let Some((edge, w)) = later.worst
+            && self.worst.as_ref().is_none_or(|(_, known)| self.worse(weights, &w, known))
+        {
+            self.worst = Some((edge, w));
+        }
+    }
+
+    /// Decides the predicate; the classes in `failing` make it fail.
+    pub fn decide(&self, trial: &Trial, failing: &[Class]) -> Verdict {
+        let (tally, class, literal) = (self.tally, self.class, trial.has_literal_signs());
+        let level = if literal { Level::Exact } else { Level::Measured };
+        // Where both directions say the same, the smaller end is named.
+        let first = |(edge, w): &(Edge, Weight)| {
+            let same = edge.weights().find(|v| v.value == w.value && class(v) == class(w)).copied();
+            (class(w), edge.number, same.unwrap_or(*w))
+        };
+        let verdict = match self.worst.as_ref().map(first) {
+            Some((found, number, w)) if failing.contains(&found) => {
+                Verdict::fails(level, witness(trial, number, &w, found == Class::Zero))
+            }
+            Some((Class::Open, _, w)) => Verdict::undecided(format!(
+                "the weight {:.2e} at ({}, {}), one of {}, is no larger than {:.2e}: rounding may have given it its sign",
+                w.value, w.i, w.j, tally.undecided, w.threshold.defect
+            )),
+            other => {
+                let worst = other.map_or_else(Vec::new, |(_, _, w)| vec![w.i, w.j]);
+                Verdict::holds(level, Evidence::bare(Statement::Scan { checked: tally.total, worst }))
+            }
+        };
+        let verdict = verdict.with_tally(tally);
+        if literal { verdict } else { verdict.with_margin(self.margin) }
+    }
+}
+
+/// The surveys of all parts; kept by [`Trial::surveys`].
+#[derive(Clone, Debug)]
+pub(crate) struct Surveys {
+    /// `ω > 0` on interior edges.
+    pub strict: Survey,
+    /// `ω ≥ 0` on interior edges.
+    pub weak: Survey,
+    /// `ω > 0` on boundary edges.
+    pub boundary: Survey,
+    /// `ω > 0` on interior edges with both ends on the boundary.
+    pub bridges: Survey,
+    /// What a reader should know of how the weights were counted.
+    pub notes: Vec<String>,
+}
+
+impl Default for Surveys {
+    fn default() -> Self {
+        Surveys {
+            strict: Survey::new(Part::Interior, strict, STRICT),
+            weak: Survey::new(Part::Interior, weak, WEAK),
+            boundary: Survey::new(Part::Boundary, strict, STRICT),
+            bridges: Survey::new(Part::Bridges, strict, STRICT),
+            notes: Vec::new(),
+        }
+    }
+}
+
+impl Surveys {
+    /// Of the operator on trial.
+    pub fn of(trial: &Trial) -> Self {
+        let weights = Weights::of(trial);
+        Surveys { notes: weights.notes(), ..weights.surveys() }
+    }
+
+    fn each(&mut self, mut f: impl FnMut(&mut Survey)) {
+        [&mut self.strict, &mut self.weak, &mut self.boundary, &mut self.bridges].into_iter().for_each(&mut f);
+    }
 }
 
 fn witness(trial: &Trial, number: Option<usize>, w: &Weight, zero: bool) -> Evidence {
     let mut excerpt = excerpt::of_rows(trial, [w.i]).with_positions(trial, [w.i, w.j]);
     let mut opposite = Vec::new();
     if let (Domain::Surface(surface), Some(edge)) = (trial.domain, number) {
-        let faces: Vec<usize> = surface.topology().sides(edge).iter().map(|s| s.face).collect();
+        let faces: Vec<usize> = surface.topology().sides(edge).iter().map(|s| s.face()).collect();
         excerpt = excerpt.with_faces(trial, &faces).with_corners(trial);
         let angle = |v: usize| geometry::angle(surface.point(v), surface.point(w.i), surface.point(w.j)).to_degrees();
         opposite = surface.opposite(edge).into_iter().map(|(_, v)| Corner { vertex: v, angle_deg: angle(v) }).collect();

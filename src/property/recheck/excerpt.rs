@@ -179,7 +179,7 @@ pub(super) fn whole(domain: &Domain, operator: &Operator) -> Excerpt {
         rows: all_rows(operator.stiffness()),
         mass_rows: operator.mass().map_or_else(Vec::new, |m| all_rows(m.matrix())),
         positions: domain.positions().unwrap_or(&[]).iter().copied().enumerate().collect(),
-        faces: surface.map_or_else(Vec::new, |s| s.faces().iter().cloned().enumerate().collect()),
+        faces: surface.map_or_else(Vec::new, |s| s.faces().iter().map(<[usize]>::to_vec).enumerate().collect()),
         edges: if surface.is_some() { Vec::new() } else { domain.edges().to_vec() },
     }
 }
@@ -250,7 +250,7 @@ pub(super) fn check_whole(statement: &Statement, excerpt: &Excerpt, domain: &Dom
             in_range(i).and(in_range(j))?;
             let Some(surface) = domain.as_surface() else { return Ok(()) };
             let sides = surface.topology().edge_between(i, j).map_or(&[][..], |e| surface.topology().sides(e));
-            check_faces(sides.iter().map(|s| s.face), excerpt)
+            check_faces(sides.iter().map(|s| s.face()), excerpt)
         }
         _ => Ok(()),
     }
@@ -258,7 +258,7 @@ pub(super) fn check_whole(statement: &Statement, excerpt: &Excerpt, domain: &Dom
 
 fn check_star(vertex: usize, excerpt: &Excerpt, domain: &Domain) -> Result<(), Refusal> {
     if let Some(surface) = domain.as_surface() {
-        return check_faces(surface.topology().star(vertex).iter().map(|s| s.0), excerpt);
+        return check_faces(surface.topology().star(vertex).iter().map(|c| c.face()), excerpt);
     }
     let at_vertex = |e: &&[usize; 2]| e.contains(&vertex);
     if excerpt.edges.iter().filter(at_vertex).count() == domain.edges().iter().filter(at_vertex).count() {

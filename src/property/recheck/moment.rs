@@ -118,8 +118,8 @@ pub(super) fn oriented_axes(surface: &Surface) -> Option<[usize; 2]> {
 /// The previous and the next vertex along the boundary with the surface to the left; `None` unless there is one of each.
 pub(super) fn boundary_neighbours(surface: &Surface, i: usize) -> Option<[usize; 2]> {
     let (mut previous, mut next) = (Vec::new(), Vec::new());
-    for &(face, corner) in surface.topology().star(i) {
-        let f = &surface.faces()[face];
+    for at in surface.topology().star(i) {
+        let (f, corner) = (&surface.faces()[at.face()], at.corner());
         let (before, after) = (f[(corner + f.len() - 1) % f.len()], f[(corner + 1) % f.len()]);
         let on_boundary =
             |v| surface.topology().edge_between(i, v).is_some_and(|e| surface.topology().is_boundary_edge(e));
@@ -136,8 +136,8 @@ pub(super) fn boundary_neighbours(surface: &Surface, i: usize) -> Option<[usize;
 pub(super) fn is_proper_star(surface: &Surface, i: usize, ends: usize) -> bool {
     let (topology, at) = (surface.topology(), |v: usize| surface.positions()[v]);
     let mut edges = Vec::new();
-    for &(face, corner) in topology.star(i) {
-        let f = &surface.faces()[face];
+    for c in topology.star(i) {
+        let (f, corner) = (&surface.faces()[c.face()], c.corner());
         if f[1..].windows(2).all(|w| geometry::collinear(at(f[0]), at(w[0]), at(w[1]))) {
             return false;
         }
@@ -154,7 +154,7 @@ pub(super) fn is_proper_star(surface: &Surface, i: usize, ends: usize) -> bool {
 pub(super) fn is_flat_star(surface: &Surface, i: usize) -> bool {
     let at = |v: usize| surface.positions()[v];
     let star = surface.topology().star(i);
-    let faces = || star.iter().map(|&(f, _)| surface.faces()[f].as_slice());
+    let faces = || star.iter().map(|c| &surface.faces()[c.face()]);
     let triangles = || faces().flat_map(|f| f[1..].windows(2).map(move |w| [f[0], w[0], w[1]]));
     let Some([a, b, c]) = triangles().find(|t| !geometry::collinear(at(t[0]), at(t[1]), at(t[2]))) else {
         return false;

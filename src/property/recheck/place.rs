@@ -133,7 +133,9 @@ fn check_carries_weight(domain: &Domain, operator: &Operator, i: usize, j: usize
 pub(super) fn has_own_edges(domain: &Domain, l: &Csr) -> bool {
     let share = |i: usize, j: usize| {
         domain.edges().binary_search(&[i.min(j), i.max(j)]).is_ok()
-            || domain.as_surface().is_some_and(|s| s.topology().star(i).iter().any(|&(f, _)| s.faces()[f].contains(&j)))
+            || domain
+                .as_surface()
+                .is_some_and(|s| s.topology().star(i).iter().any(|c| s.faces()[c.face()].contains(&j)))
     };
     !matches!(domain, Domain::Points(_)) && l.entries().any(|(i, j, v)| i != j && *v != 0.0 && !share(i, j))
 }

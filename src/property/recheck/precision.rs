@@ -15,7 +15,7 @@ pub(super) fn linear(scan: &Scan) -> Result<Seen, Refusal> {
     let (surface, l) = (surface(scan)?, scan.operator.stiffness());
     let plane = surface.plane();
     let stays = |i: usize| {
-        let beyond = |j: usize| !surface.topology().star(i).iter().any(|&(f, _)| surface.faces()[f].contains(&j));
+        let beyond = |j: usize| !surface.topology().star(i).iter().any(|c| surface.faces()[c.face()].contains(&j));
         !l.row(i).any(|(j, v)| j != i && *v != 0.0 && beyond(j))
     };
     let mut places = 0;
@@ -66,7 +66,7 @@ fn check_moments(
 /// ENERGY, as a sum over edges.
 pub(super) fn energy(scan: &Scan) -> Result<Seen, Refusal> {
     let (surface, l) = (surface(scan)?, scan.operator.stiffness());
-    let area = energy::area(surface.faces().iter().map(Vec::as_slice), |v| Ok(surface.positions()[v]))?;
+    let area = energy::area(surface.faces().iter(), |v| Ok(surface.positions()[v]))?;
     let (size, error) = area.approximate();
     let entries = match surface.plane() {
         Some([a, b]) => vec![(vec![[a, a]], 1.0), (vec![[b, b]], 1.0), (vec![[a, b]], 0.0), (vec![[b, a]], 0.0)],

@@ -121,7 +121,7 @@ impl Scan<'_> {
             let joined = edges.binary_search(&[i.min(j), i.max(j)]).is_ok();
             let share = || {
                 let surface = self.domain.as_surface();
-                surface.is_some_and(|s| s.topology().star(i).iter().any(|&(f, _)| s.faces()[f].contains(&j)))
+                surface.is_some_and(|s| s.topology().star(i).iter().any(|c| s.faces()[c.face()].contains(&j)))
             };
             if joined || share() {
                 continue;

@@ -105,9 +105,9 @@ pub(super) fn scan(domain: &Domain, operator: &Operator) -> Answer {
 
 fn star(surface: &Surface, i: usize) -> Star {
     let mut star = Star::default();
-    for &(face, corner) in surface.topology().star(i) {
-        let corners: Vec<_> = surface.faces()[face].iter().map(|&v| surface.positions()[v]).collect();
-        star.add(&corners, corner);
+    for at in surface.topology().star(i) {
+        let corners: Vec<_> = surface.faces()[at.face()].iter().map(|&v| surface.positions()[v]).collect();
+        star.add(&corners, at.corner());
     }
     star
 }
@@ -123,7 +123,7 @@ fn has_planar_faces(surface: &Surface) -> bool {
 
 /// Refuses a total that is not the area, a share that no division of the star gives by a factor of two.
 fn check_shares(m: &Csr, surface: &Surface, stars: &[Star], leeway: &Leeway) -> Result<(), Refusal> {
-    let area = area(surface.faces().iter().map(Vec::as_slice), |v| Ok(surface.positions()[v]))?;
+    let area = area(surface.faces().iter(), |v| Ok(surface.positions()[v]))?;
     let (size, error) = area.approximate();
     let mut total = Terms::default();
     m.entries().for_each(|e| total.add(*e.2));

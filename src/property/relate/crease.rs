@@ -72,12 +72,12 @@ fn divide(surface: &Surface, chain: Vec<usize>) -> Option<Crease> {
     let mut joined = Vec::new();
     for e in (0..surface.topology().edges().len()).filter(|e| !cut.contains(e)) {
         let sides = surface.topology().sides(e);
-        joined.extend(sides.windows(2).map(|w| [w[0].face, w[1].face]));
+        joined.extend(sides.windows(2).map(|w| [w[0].face(), w[1].face()]));
     }
     let part = crate::domain::topology::components(surface.faces().len(), &joined);
     let beside = surface.topology().sides(*cut.first()?);
     let [one, other] = beside else { return None };
-    let (one, other) = (part[one.face], part[other.face]);
+    let (one, other) = (part[one.face()], part[other.face()]);
     // The part that is folded: the smaller one beside the chain.
     let size = |p: usize| part.iter().filter(|&&q| q == p).count();
     let turned = if size(one) <= size(other) { one } else { other };

@@ -103,7 +103,8 @@ pub(crate) fn doubled(domain: &Domain, shift: impl Fn([f64; 3]) -> [f64; 3]) -> 
     let made = match domain {
         Domain::Surface(s) => {
             let copy = s.faces().iter().map(|f| f.iter().map(|v| v + n).collect());
-            Surface::new(both(s.positions()), s.faces().iter().cloned().chain(copy).collect()).map(Domain::from)
+            Surface::new(both(s.positions()), s.faces().iter().map(<[usize]>::to_vec).chain(copy).collect())
+                .map(Domain::from)
         }
         Domain::Volume(v) => {
             let copy = v.tetrahedra().iter().map(|t| t.map(|v| v + n));
