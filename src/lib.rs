@@ -141,6 +141,7 @@ pub mod domain;
 pub mod exchange;
 pub mod experiment;
 pub mod external;
+pub mod fault;
 pub mod generate;
 pub mod laplacian;
 pub mod linalg;
