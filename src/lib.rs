@@ -135,6 +135,7 @@
 
 #[macro_use]
 mod catalogue;
+pub mod campaign;
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod domain;

@@ -43,6 +43,7 @@ catalogue! {
     subdivide,
     torus,
     translate,
+    wheel,
     worst_angle,
 }
 
