@@ -15,7 +15,7 @@ use super::{CampaignError, Options};
 use crate::domain::{Domain, DomainKind, Facts};
 use crate::property::{self, Status, Trial, Verdict};
 use crate::record::alarms::{ALARMS_SCHEMA, AlarmLine, AlarmTally, Alarms};
-use crate::suite::{Choice, Recipe};
+use crate::suite::{Choice, Recipe, RecipeError};
 
 /// Beyond this many vertices only properties that look at each entry once are asked.
 pub const STRUCTURAL: usize = 2_000;
@@ -126,7 +126,7 @@ fn take_in<'a>(case: Case, alarms: &mut Alarms, tallies: &mut BTreeMap<(&'a str,
 /// Makes the domain of a case, builds its operator and decides what is promised.
 fn sit(case: usize, options: &Options) -> Result<Case, CampaignError> {
     let Draw { class, recipe } = draw::draw(options.seed, case);
-    let domain = domain(&recipe, &options.root)?;
+    let (recipe, domain) = domain(recipe, &options.root)?;
     let facts = domain.facts();
     let healthy = facts.surface.as_ref().is_none_or(|s| s.min_angle_deg >= HEALTHY_DEGREES && s.degenerate_faces == 0);
     let turn = case / draw::classes();
@@ -157,10 +157,16 @@ fn sit(case: usize, options: &Options) -> Result<Case, CampaignError> {
     Ok(Case { class, vertices: facts.vertices, healthy, operator, verdicts: verdicts.unwrap_or_default(), refused })
 }
 
-fn domain(recipe: &str, root: &Path) -> Result<Domain, CampaignError> {
-    let failed = |error: String| CampaignError::Domain { name: recipe.into(), error };
-    let parsed: Recipe = recipe.parse().map_err(|e: crate::suite::RecipeError| failed(e.to_string()))?;
-    parsed.build(root).map_err(|e| failed(e.to_string()))
+/// Makes the domain. A last modifier that refuses its domain (no edge of a fan can be flipped) is left out.
+fn domain(mut recipe: String, root: &Path) -> Result<(String, Domain), CampaignError> {
+    loop {
+        let made = recipe.parse::<Recipe>().and_then(|parsed| parsed.build(root));
+        match (made, recipe.rfind(" | ")) {
+            (Ok(domain), _) => return Ok((recipe, domain)),
+            (Err(RecipeError::Generate(_)), Some(modifier)) => recipe.truncate(modifier),
+            (Err(error), _) => return Err(CampaignError::Domain { name: recipe, error: error.to_string() }),
+        }
+    }
 }
 
 /// The verdicts on what the catalogue promises; `None` where the construction refuses the domain.

@@ -68,14 +68,22 @@ pub(super) static FAULTS: &[Fault] = &[
         SLIVERS,
         |s, _| each(s, |t, c| 0.25 * (t.cotangents[(c + 1) % 3] + t.cotangents[(c + 2) % 3])),
     ),
-    fault("one-wrong-corner", "in one triangle the cotangents are one corner on", WEIGHTS, SLIVERS, |s, r| {
-        let triangles = s.triangles()?;
-        let chosen = r.below(triangles.len());
-        let cotangent = |k: usize, t: &Triangle, c: usize| t.cotangents[if k == chosen { (c + 1) % 3 } else { c }];
-        let weights =
-            triangles.iter().enumerate().flat_map(|(k, t)| [0, 1, 2].map(|c| (t.side(c), 0.5 * cotangent(k, t, c))));
-        s.assembled(weights, &triangles)
-    }),
+    fault(
+        "one-wrong-corner",
+        "in one triangle the cotangents are one corner on",
+        WEIGHTS,
+        &[Blind::AnglesBelow(1.0), Blind::Curved],
+        |s, r| {
+            let triangles = s.triangles()?;
+            let chosen = r.below(triangles.len());
+            let cotangent = |k: usize, t: &Triangle, c: usize| t.cotangents[if k == chosen { (c + 1) % 3 } else { c }];
+            let weights = triangles
+                .iter()
+                .enumerate()
+                .flat_map(|(k, t)| [0, 1, 2].map(|c| (t.side(c), 0.5 * cotangent(k, t, c))));
+            s.assembled(weights, &triangles)
+        },
+    ),
     fault(
         "unnormalised-dot",
         "the dot product of the sides for the cotangent: not divided by the cross product",

@@ -71,7 +71,7 @@ pub(super) static FAULTS: &[Fault] = &[
         "stretched-by-1e-6",
         "one axis stretched by 1e-6 of its length: inches against rounded millimetres",
         &["ENERGY", "FLUX"],
-        &[Blind::AnglesBelow(1.0)],
+        &[Blind::AnglesBelow(1.0), Blind::Curved],
         |s, _| stretched(s, 1.0 + 1e-6),
     ),
     fault(
@@ -129,21 +129,21 @@ pub(super) static FAULTS: &[Fault] = &[
         "coordinates-in-f32",
         "coordinates read in single precision",
         &["ENERGY", "LIN", "FLUX"],
-        &[Blind::AnglesBelow(3.0)],
+        &[Blind::AnglesBelow(3.0), Blind::Curved],
         |s, _| moved(s, |(_, p)| p.map(|x| f64::from(x as f32))),
     ),
     fault(
         "coordinates-to-6-digits",
         "coordinates printed with six digits",
         &["ENERGY", "LIN", "FLUX"],
-        &[Blind::AnglesBelow(1.0)],
+        &[Blind::AnglesBelow(1.0), Blind::Curved],
         |s, _| moved(s, |(_, p)| p.map(|x| format!("{x:.5e}").parse().unwrap_or(x))),
     ),
     fault(
         "far-from-origin",
         "weights computed a million diameters from the origin",
         &["ENERGY", "LIN", "FLUX"],
-        &[Blind::AnglesBelow(5.0)],
+        &[Blind::AnglesBelow(5.0), Blind::Curved],
         |s, _| {
             let (extent, along) = (extents(s)?, axes(s)?);
             let far = 1e6 * extent.iter().fold(0.0_f64, |m, e| m.max(*e));

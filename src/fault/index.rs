@@ -77,14 +77,14 @@ pub(super) static FAULTS: &[Fault] = &[
         "corner-off-by-one",
         "one corner of one triangle one index too large",
         PLACES,
-        &[Blind::AnglesBelow(1.0)],
+        &[Blind::AnglesBelow(1.0), Blind::Curved],
         |s, r| misread(s, r, 1),
     ),
     fault(
         "corner-misread",
         "one corner of one triangle read as some other vertex",
         PLACES,
-        &[Blind::AnglesBelow(1.0)],
+        &[Blind::AnglesBelow(1.0), Blind::Curved],
         |s, r| {
             let by = 1 + r.below(s.size().saturating_sub(1));
             misread(s, r, by)

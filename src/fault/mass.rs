@@ -138,9 +138,13 @@ pub(super) static FAULTS: &[Fault] = &[
             })
         },
     ),
-    fault("clamped-circumcentric", "negative circumcentric parts set to zero", &[MassKind::Mixed], SLIVERS, |s, _| {
-        rule(s, |t, c| circumcentric(t, c).max(0.0))
-    }),
+    fault(
+        "clamped-circumcentric",
+        "negative circumcentric parts set to zero",
+        &[MassKind::Mixed],
+        &[Blind::AnglesBelow(1.0), Blind::Undeclared],
+        |s, _| rule(s, |t, c| circumcentric(t, c).max(0.0)),
+    ),
     fault(
         "thirds-for-mixed",
         "a third of the area, labelled mixed",
@@ -190,7 +194,7 @@ pub(super) static FAULTS: &[Fault] = &[
             s.with_mass(s.mass()?.matrix().map(|i, _, v| if on_boundary[i] { 2.0 * v } else { *v }))
         },
     ),
-    fault("mass-projected", "the areas of the mesh seen from above", ANY, SLIVERS, |s, _| {
+    fault("mass-projected", "the areas of the mesh seen from above", &[MassKind::Barycentric], SLIVERS, |s, _| {
         let flat: Vec<[f64; 3]> = s.surface()?.positions().iter().map(|p| [p[0], p[1], 0.0]).collect();
         s.with_mass(lumped(s.size(), &s.triangles_at(&flat)?, |t, _| t.area() / 3.0))
     }),

@@ -131,7 +131,8 @@ pub enum Blind {
     /// Where some angle is below this many degrees: the rounding that such a triangle explains is larger than the change.
     AnglesBelow(f64),
     /// Off the plane: coordinates are not linear functions there, so that LIN and FLUX say nothing, and ENERGY is one number
-    /// for the whole surface.
+    /// for the whole surface. The energy of the coordinates is at least twice the area, with equality where they are conformal:
+    /// it is stationary, and a metric that is wrong by δ changes it by δ² only.
     Curved,
     /// Where the mesh is no manifold, or has a degenerate face: LIN and FLUX leave those vertices out.
     Unsound,
@@ -165,7 +166,11 @@ impl Blind {
                 format!("beside angles below {degrees}°: the rounding that they explain is larger than the change")
             }
             Blind::Curved => {
-                "on curved surfaces: LIN and FLUX say nothing there, and ENERGY is one number for all".into()
+                {
+                "on curved surfaces: LIN and FLUX say nothing there, and ENERGY is one number for all, which a metric that is wrong by δ \
+                 changes by δ² only"
+                    .into()
+            }
             }
             Blind::Unsound => {
                 "beside degenerate faces and where the mesh is no manifold: LIN and FLUX leave these out".into()
