@@ -1,9 +1,23 @@
 //! How far the matrix that was really factorised is from the one that was meant.
 //!
-//! The computed factors are the exact factors of `A + E` with `|E| ≤ γ |L||D||Lᵀ|` entrywise, `γ = k u/(1 − k u)`, where k − 1 is
-//! the largest number of entries in a row of L: an entry of A is matched by at most that many products and one division,
-//! in whatever order they are summed (Higham 2002, theorem 9.3; Demmel 1989; Rump 2006). By Sylvester's law the signs of D are
-//! the inertia of `A + E` itself, so a bound for E relative to `diag(s)` is all that an inertia count needs.
+//! The computed factors are the exact factors of `A + E` with `|E| ≤ γ_k |L||D||Lᵀ|` entrywise, `γ_k = k u/(1 − k u)`. By
+//! Sylvester's law the signs of D are the inertia of `A + E` itself, so a bound for E relative to `diag(s)` is all that an
+//! inertia count needs (Demmel 1989; Rump 2006).
+//!
+//! # The constant
+//! Let m be the largest number of entries in a row of L, the one on the diagonal included. `l_ij d_j = a_ij − Σ l_ik d_k l_jk` has at
+//! most m − 1 products, and *in whatever order* they are summed, blocked, or fused with the sum, `γ_m` covers sums, products and
+//! one division (Higham 2002, lemma 8.4). The order of elimination does not enter, nor do the dense blocks of the supernodal code:
+//! their matrix products are sums of all the products, their triangular solves have a unit diagonal and substitute, and the zeros
+//! that fill a block up are entries of L like others, their products exact. Added to m are one each for
+//!
+//! 1. the third factor `d_k`, multiplied in beforehand or divided out afterwards;
+//! 2. the division, which is a product with the rounded reciprocal of the pivot;
+//! 3. `½ (a_ij + a_ji)`, where the matrix was made symmetric: its rounding is `u |a_ij|`, and `|A| ≤ (1 + γ) |L||D||Lᵀ|`;
+//! 4. the sum `a_ii + τ s_i` of a shift, likewise; the product `τ s_i` itself is off by `u τ s_i`: the 4u below;
+//! 5. the evaluation of `|L||D||Lᵀ| 1` in floating point, whose terms are positive.
+//!
+//! So `k = m + 5`. Underflow is added: each operation may lose `2⁻¹⁰⁷⁴`.
 
 use faer::sparse::linalg::cholesky::{SymbolicCholeskyRaw, supernodal};
 
@@ -11,6 +25,9 @@ use super::factor::Ldlt;
 
 /// The unit roundoff 2⁻⁵³.
 pub const UNIT_ROUNDOFF: f64 = f64::EPSILON / 2.0;
+
+/// The smallest positive number, 2⁻¹⁰⁷⁴.
+const SMALLEST: f64 = 5e-324;
 
 /// Higham's `γ_k = k u/(1 − k u)`: the relative error of k rounded operations in a row.
 pub fn gamma(k: usize) -> f64 {
@@ -69,8 +86,11 @@ impl Ldlt {
             .map(|(&row, p)| if scales[row] > 0.0 { p / scales[row] } else { f64::INFINITY })
             .fold(0.0, f64::max);
         let terms = length.into_iter().max().unwrap_or(0);
-        // The product itself is computed with a relative error below one in a million: counted by one more term.
-        gamma(terms + 2) * worst + 4.0 * UNIT_ROUNDOFF
+        // A product or quotient that underflows is off by 2⁻¹⁰⁷⁴, times a pivot where it is multiplied by one afterwards.
+        let largest = pivots.iter().fold(1.0_f64, |m, d| m.max(d.abs()));
+        let smallest = scales.iter().copied().fold(f64::INFINITY, f64::min);
+        let lost = 2.0 * (n * terms) as f64 * SMALLEST * largest / smallest;
+        if lost.is_nan() { f64::INFINITY } else { gamma(terms + 5) * worst + 4.0 * UNIT_ROUNDOFF + lost }
     }
 }
 

@@ -7,12 +7,13 @@
 //! # Accuracy
 //! Up to [`LARGEST_INVERSE`] unknowns g is a bound: from the computed inverse Y and `E = I − AY`,
 //! `|A⁻¹| v ≤ |Y| v / (1 − η)`, `η = max_k (|E| v)_k / v_k` with the rounding of the product included (Rump 2010, section 10).
-//! Above, g is three times the estimate of `‖A⁻¹ diag(v)‖_∞` of Hager (1984) and Higham (2002, section 15.3), the same for all
-//! rows: a measurement, not a bound.
+//! Above, [`influence`](super::influence) gives a bound where A is an H-matrix or positive definite. Elsewhere g is three times the
+//! estimate of `‖A⁻¹ diag(v)‖_∞` of Hager (1984) and Higham (2002, section 15.3), the same for all rows: a measurement, not a bound.
 
 use super::Csr;
 use super::backward::gamma;
 use super::factor::{FactorError, Ldlt, Lu};
+use super::influence::{Comparison, Gap};
 
 /// Up to this size the influence of each row on each unknown is bounded by way of the whole inverse.
 pub const LARGEST_INVERSE: usize = 512;
@@ -25,13 +26,25 @@ enum Factor {
     General(Lu),
 }
 
+/// How the influence is found.
+enum Means {
+    /// By the whole inverse.
+    Inverse,
+    /// By the comparison matrix of an H-matrix.
+    Comparison(Box<Comparison>),
+    /// By the smallest eigenvalue of a positive definite matrix.
+    Gap(Gap),
+    /// By an estimate.
+    Estimate,
+}
+
 /// A factorised matrix with a bound on what residuals do to its solutions.
 pub struct Certified {
     matrix: Csr,
     factor: Factor,
     weights: Vec<f64>,
     influence: Vec<f64>,
-    rigorous: bool,
+    means: Means,
     longest_row: usize,
 }
 
@@ -46,8 +59,8 @@ impl Certified {
             None => Factor::General(Lu::new(&matrix)?),
         };
         let longest_row = (0..matrix.rows()).map(|i| matrix.row(i).len()).max().unwrap_or(0);
-        let rigorous = matrix.rows() <= LARGEST_INVERSE;
-        let mut solver = Certified { matrix, factor, weights, influence: Vec::new(), rigorous, longest_row };
+        let means = if matrix.rows() <= LARGEST_INVERSE { Means::Inverse } else { means(&matrix, &factor, &weights) };
+        let mut solver = Certified { matrix, factor, weights, influence: Vec::new(), means, longest_row };
         solver.influence = solver.influence_of(&solver.weights);
         let sound = solver.influence.iter().all(|g| g.is_finite());
         if sound { Ok(solver) } else { Err(FactorError::Singular) }
@@ -55,7 +68,7 @@ impl Certified {
 
     /// Whether the influence is a bound rather than an estimate.
     pub fn is_rigorous(&self) -> bool {
-        self.rigorous
+        !matches!(self.means, Means::Estimate)
     }
 
     /// `g = |A⁻¹| v`, bounded or estimated.
@@ -65,7 +78,12 @@ impl Certified {
 
     /// `|A⁻¹| w` for other weights w, bounded or estimated; infinite where it cannot be bounded.
     pub fn influence_of(&self, weights: &[f64]) -> Vec<f64> {
-        if self.rigorous { self.bounded_influence(weights) } else { self.estimated_influence(weights) }
+        match &self.means {
+            Means::Inverse => self.bounded_influence(weights),
+            Means::Comparison(comparison) => comparison.influence(weights),
+            Means::Gap(gap) => gap.influence(weights),
+            Means::Estimate => self.estimated_influence(weights),
+        }
     }
 
     /// Solves for the columns of B, which are replaced, and returns for each its τ: `|x − x*| ≤ τ g`. Infinite where the
@@ -136,9 +154,10 @@ impl Certified {
                 }
             }
         }
-        let eta = defect.iter().zip(weights).map(|(d, v)| d / v).fold(0.0, f64::max);
-        // The sums of n terms and this quotient carry n + 2 roundings more.
-        let factor = (1.0 + gamma(n + 4)) / (1.0 - eta);
+        // The sums of n terms and the quotients carry n + 2 roundings more.
+        let more = 1.0 + gamma(n + 4);
+        let eta = more * defect.iter().zip(weights).map(|(d, v)| d / v).fold(0.0, f64::max);
+        let factor = more / (1.0 - eta);
         let sound = eta < 0.5;
         sum.into_iter().map(|g| if sound { g * factor } else { f64::INFINITY }).collect()
     }
@@ -183,6 +202,17 @@ impl Certified {
         let alternating = (0..n).map(|i| (if i % 2 == 0 { 1.0 } else { -1.0 }) * (1.0 + i as f64 / steps)).collect();
         best = best.max(2.0 * size(&forward(alternating)) / (3.0 * n as f64));
         vec![3.0 * best; n]
+    }
+}
+
+/// What gives a bound for a matrix too large to be inverted.
+fn means(matrix: &Csr, factor: &Factor, weights: &[f64]) -> Means {
+    if let Some(comparison) = Comparison::of(matrix, weights) {
+        return Means::Comparison(Box::new(comparison));
+    }
+    match factor {
+        Factor::Symmetric(factor) => Gap::of(matrix, factor).map_or(Means::Estimate, Means::Gap),
+        Factor::General(_) => Means::Estimate,
     }
 }
 
@@ -248,12 +278,27 @@ mod tests {
     }
 
     #[test]
-    fn the_estimate_of_a_large_path_covers_the_largest_row() {
+    fn the_influence_of_a_large_fixed_path_is_the_parabola_and_a_bound() {
         let n = 900;
         let solver = Certified::new(convection(n, 0.0), vec![1.0; n]).unwrap();
-        let largest = 0.5 * 450.0 * 451.0;
+        assert!(solver.is_rigorous());
+        for (i, g) in solver.influence().iter().enumerate() {
+            let expected = 0.5 * (i as f64 + 1.0) * (n - i) as f64;
+            assert!((g - expected).abs() < 1e-6 * expected && *g >= expected * (1.0 - 1e-12));
+        }
+    }
+
+    #[test]
+    fn the_estimate_of_a_large_matrix_that_allows_no_bound_covers_the_largest_row() {
+        // With c = 3 the weights of a row are 4 and −2 and its comparison matrix is no M-matrix.
+        let n = 600;
+        let solver = Certified::new(convection(n, 3.0), vec![1.0; n]).unwrap();
         assert!(!solver.is_rigorous());
-        assert!(solver.influence()[0] >= largest && solver.influence()[0] <= 3.1 * largest);
+        let mut columns: Vec<Vec<f64>> = (0..n).map(|k| unit(n, k)).collect();
+        solver.solve(&mut columns);
+        let row = |i: usize| columns.iter().map(|c| c[i].abs()).sum::<f64>();
+        let largest = (0..n).map(row).fold(0.0, f64::max);
+        assert!(solver.influence()[0] >= largest && solver.influence()[0] <= 9.0 * largest);
     }
 
     #[test]

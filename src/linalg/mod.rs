@@ -7,7 +7,10 @@ pub mod certified;
 pub mod csr;
 pub mod exact;
 pub mod factor;
+pub mod full;
+mod influence;
 pub mod rational;
+pub mod regular;
 
 pub use csr::Csr;
 pub use exact::Dense;

@@ -306,8 +306,8 @@ pub enum Statement {
     /// PSD: `L` is symmetric up to rounding with vanishing row sums and no negative weight, so
     /// `xᵀLx = ½ Σ ω_ij (x_i − x_j)² ≥ 0`.
     SumOfSquares,
-    /// PSD: `½(L + Lᵀ) + shift·diag(s)` has only positive pivots, so no eigenvalue relative to `diag(s)` is below `−shift`
-    /// by more than the factorisation's rounding, which `shift` exceeds.
+    /// PSD: `½(L + Lᵀ)`, lifted by two thirds of `shift·diag(s)` or more, has only positive pivots, so that no eigenvalue relative to
+    /// `diag(s)` is below `−shift`: the rounding of the factorisation is included in it.
     ShiftedFactor {
         /// The shift, relative to the row scales `s_i = Σ_k |L_ik|`.
         shift: f64,
@@ -329,7 +329,8 @@ pub enum Statement {
         /// The dimension of the kernel.
         kernel: usize,
     },
-    /// KER: the smallest singular value that is not of the kernel, and the largest that is, relative to the largest.
+    /// KER: of `diag(s)^(−½) L diag(s)^(−½)`, s the larger of the absolute sums of a row and its column (1 where both are empty), the
+    /// smallest singular value that is not of the kernel, and the largest that is, relative to the largest.
     SingularValues {
         /// The dimension of the kernel.
         kernel: usize,
@@ -341,8 +342,8 @@ pub enum Statement {
     /// MAX-global: no interior row has a negative weight, and from every interior vertex a chain of positive weights leads to
     /// the set: `L_II` is an M-matrix. Where the domain is closed, from every vertex of a component to every other one, so
     /// that the same is true of every set that meets each component; `set` is then that of the largest set drawn.
-    /// MAX-heat: with `set: 0`; no row has a negative weight, the mass is lumped and positive, and every row sum of `M + tL` is
-    /// positive for each t stated, so that it is an M-matrix.
+    /// MAX-heat: with `set: 0`; no row has a negative weight, the mass is lumped and positive, and no row sum of L is below zero by
+    /// more than rounding, or by what its mass outweighs for each t stated: `M + tL` is an M-matrix.
     SignPattern {
         /// How many vertices have prescribed values.
         set: usize,

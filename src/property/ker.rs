@@ -10,7 +10,13 @@
 //!    is constant on each by the maximum principle and determined by these constants elsewhere). Combinatorial.
 //! 3. Symmetric: the inertia of `L ± τ diag(s)` counts the eigenvalues relative to `diag(s)` in `(−τ, τ)`, for τ from four
 //!    times the backward error of the factorisation upwards until exactly the constants are left inside.
-//! 4. Otherwise singular values, dense, up to [`LARGEST_DENSE`] vertices.
+//! 4. Otherwise the singular values of `diag(s)^(−½) L diag(s)^(−½)`, s the larger of the sums of a row and its column so that a sliver
+//!    has no say elsewhere; dense, up to [`LARGEST_DENSE`] vertices. As many as there are components must be zero up to the
+//!    rounding of the decomposition and what constants leave, and the next one is bounded away from that
+//!    ([`regular`](crate::linalg::regular)).
+//!
+//! The kernel is that of the matrix as it is given. A second vector whose image is not zero, but smaller than what rounding explains
+//! beside a sliver, is none; how near to the kernel it may come is told in `docs/tolerance.md`.
 //!
 //! A further vector of the kernel is accepted as a witness when Lx vanishes exactly; or up to what rounding explains on healthy
 //! faces (Q = 1) while entries are of such sizes that the eigenvalues of a correct operator off the kernel are a thousand times
@@ -30,14 +36,16 @@ use super::solve::null_vector;
 use super::tolerance::{Sign, Threshold, UNIT_ROUNDOFF};
 use super::{Evidence, Level, Property, Question, Statement, Trial, Verdict};
 use crate::linalg::Csr;
-use crate::linalg::factor::{Ldlt, singular_values};
+use crate::linalg::factor::Ldlt;
+use crate::linalg::full::Full;
+use crate::linalg::regular::singular_value_from_below;
 use crate::scalar::{Rational, Scalar};
 
 /// Singular values are computed up to this many vertices.
 pub const LARGEST_DENSE: usize = 500;
 
-/// Singular values count as apart where the next one is this many times the bound for those counted as zero: the constant in
-/// the backward error of the algorithm is known only as "small".
+/// Where no rigorous bound was found, singular values count as apart where the next one is this many times the bound for those
+/// counted as zero: the constant in the backward error of the algorithm is known only as "small".
 const GAP: f64 = 8.0;
 
 /// How far a vanishing image must lie below the eigenvalues that are to be expected.
@@ -220,28 +228,36 @@ impl<'a> Case<'a> {
                  done up to {LARGEST_DENSE} vertices (here {n})"
             ));
         }
-        let Ok((values, vectors)) = singular_values(self.matrix) else {
+        let root = self.roots();
+        let mut scaled = Full::from_fn(n, |_, _| 0.0);
+        self.matrix.entries().for_each(|(i, j, v)| scaled.set(i, j, v / root[i] / root[j]));
+        let Ok(found) = scaled.singular_values() else {
             return Verdict::undecided("the singular values did not converge");
         };
-        let largest = values.first().copied().unwrap_or(0.0);
+        let largest = found.values.first().copied().unwrap_or(0.0);
         if largest == 0.0 {
             let statement = Statement::SingularValues { kernel: n, zero: 0.0, positive: 0.0 };
             return Verdict::holds(Level::Exact, Evidence::bare(statement));
         }
-        // Backward stable: each value is off by a small multiple of n u times the largest. Row sums add what they are off.
-        let sums = (0..n).map(|i| self.trial.rounding().row(i).explained * self.scales[i]).fold(0.0, f64::max);
-        let zero = 16.0 * n as f64 * UNIT_ROUNDOFF + sums / largest;
-        let kernel = values.iter().filter(|v| **v <= zero * largest).count();
-        let at = |k: usize| values.get(k).map_or(0.0, |v| v / largest);
-        if kernel == self.count && (kernel == n || at(n - kernel - 1) > GAP * zero) {
-            let positive = if kernel == n { 0.0 } else { at(n - kernel - 1) };
-            let statement = Statement::SingularValues { kernel, zero: at(n - kernel), positive };
-            return Verdict::holds(Level::Measured, Evidence::bare(statement)).with_margin(zero / positive);
+        // Backward stable: each value is off by a small multiple of n u times the largest. Constants add what they leave.
+        let zero = 16.0 * n as f64 * UNIT_ROUNDOFF + self.image_of_constants(&root) / largest;
+        let kernel = found.values.iter().filter(|v| **v <= zero * largest).count();
+        let at = |k: usize| found.values.get(k).map_or(0.0, |v| v / largest);
+        if kernel == self.count && kernel < n {
+            // Two quotients round each entry twice.
+            let bound = singular_value_from_below(&scaled, &found, kernel, 2.5 * UNIT_ROUNDOFF) / largest;
+            let positive = at(n - kernel - 1);
+            if bound > zero || positive > GAP * zero {
+                let level = if bound > zero { Level::Bounded } else { Level::Measured };
+                let statement = Statement::SingularValues { kernel, zero: at(n - kernel), positive };
+                return Verdict::holds(level, Evidence::bare(statement)).with_margin(zero / positive);
+            }
         }
         if kernel > self.count {
-            let space = &vectors[n - kernel..];
-            let found = null_vector::farthest_from_constants(space, &self.components);
-            if let Some(verdict) = found.and_then(|x| self.beyond_constants(&x)) {
+            let unscaled = |v: &Vec<f64>| v.iter().zip(&root).map(|(v, r)| v / r).collect();
+            let space: Vec<Vec<f64>> = found.right[n - kernel..].iter().map(unscaled).collect();
+            let candidate = null_vector::farthest_from_constants(&space, &self.components);
+            if let Some(verdict) = candidate.and_then(|x| self.beyond_constants(&x)) {
                 return verdict;
             }
         }
@@ -250,6 +266,27 @@ impl<'a> Case<'a> {
             at(n.saturating_sub(kernel + 1)),
             self.count
         ))
+    }
+
+    /// The square roots of the larger of the absolute sums of a row and its column; 1 where both are empty.
+    fn roots(&self) -> Vec<f64> {
+        let mut sums = self.scales.to_vec();
+        let columns = self.matrix.transpose().row_scales();
+        sums.iter_mut().zip(columns).for_each(|(s, c)| *s = s.max(c));
+        sums.into_iter().map(|s| if s > 0.0 { s.sqrt() } else { 1.0 }).collect()
+    }
+
+    /// The largest `‖Bx‖ / ‖x‖` of the scaled matrix for x a scaled indicator of a component; of more than one component the sum,
+    /// which covers their combinations.
+    fn image_of_constants(&self, root: &[f64]) -> f64 {
+        let mut images = vec![(0.0, 0.0); self.count];
+        for (i, r) in root.iter().enumerate() {
+            let mut sums = vec![0.0; self.count];
+            self.matrix.row(i).for_each(|(j, v)| sums[self.components[j]] += v);
+            images.iter_mut().zip(&sums).for_each(|(image, sum)| image.0 += (sum / r).powi(2));
+            images[self.components[i]].1 += r * r;
+        }
+        images.iter().map(|(image, size)| (image / size).sqrt()).sum()
     }
 
     /// The verdict on a vector that may be in the kernel without being locally constant.

@@ -19,8 +19,10 @@
 //! beside a cocircular pair is no failure.
 //!
 //! # Level
-//! Exact by rational elimination; bounded up to 512 equations; measured above, where the influence of residuals is estimated,
-//! and for holding closed domains, where sets are drawn.
+//! Exact by rational elimination; bounded where the influence of residuals is: up to 512 equations always, above for H-matrices
+//! and positive definite ones ([`certified`](crate::linalg::certified)); measured elsewhere, and for holding closed domains, where
+//! sets are drawn. A solution that rounding may have moved by more than a thousandth is undecided. What can hide is in
+//! `docs/tolerance.md`.
 //!
 //! # References
 //! Ciarlet 1970; Shivakumar and Chew 1974 (weakly chained dominance); Wardetzky et al. 2007.

@@ -8,6 +8,9 @@ use crate::property::tolerance::Threshold;
 /// Columns solved at a time.
 const BLOCK: usize = 64;
 
+/// A solution that rounding of the matrix may have moved by more than this, of values between 0 and 1, certifies nothing.
+const LARGEST_ERROR: f64 = 1.0 / 1024.0;
+
 /// Where a solution came closest to leaving its range, or left it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Extreme {
@@ -52,6 +55,19 @@ pub(crate) struct Signs {
 }
 
 impl Signs {
+    /// Whether the solution is known well enough for its signs to mean something.
+    pub(crate) fn is_certain(&self) -> bool {
+        self.error <= LARGEST_ERROR
+    }
+
+    /// Why a solution that leaves its range nowhere decides nothing.
+    pub(crate) fn uncertainty(&self) -> String {
+        format!(
+            "rounding of the matrix may move an entry of the solution by {:.1e}: it is too ill-conditioned to tell a sign",
+            self.error
+        )
+    }
+
     /// Whether an entry lies below zero by more than a defect's worth.
     pub(crate) fn is_negative(&self) -> bool {
         self.low.severity > 1.0
@@ -76,8 +92,10 @@ impl Signs {
 /// Solves `A x = b` for the columns `b = right(0), …, right(columns − 1)` and looks at every entry.
 ///
 /// `rows` are the thresholds of the rows of A and of the right-hand sides for values up to one, `v_i = explained_i s_i` and
-/// `w_i = defect_i s_i`. A solution x is then within `(τ + max(1, ‖x‖)) g` of that of the operator meant, `g = |A⁻¹| v`, and
-/// beyond `(τ + max(1, ‖x‖)) |A⁻¹| w` of an admissible value it is a defect.
+/// `w_i = defect_i s_i`. The operator meant has `A' = A + δA` and `b' = b + δb` with `|δb − δA x| ≤ v max(1, ‖x‖)`, so that
+/// `|x' − x| ≤ (τ + max(1, ‖x‖)) |A'⁻¹| v`. With `g = |A⁻¹| v` and `|δA| g ≤ v ‖g‖`, Neumann's series gives
+/// `|A'⁻¹| v ≤ g / (1 − ‖g‖)`, the norm being the largest component; where it is not below one, A' may be singular and nothing is
+/// explained or decided. Beyond `(τ + max(1, ‖x‖)) h / (1 − ‖h‖)`, `h = |A⁻¹| w`, of an admissible value the solution is a defect.
 ///
 /// # Errors
 /// A matrix that is singular to working precision.
@@ -88,7 +106,8 @@ pub(crate) fn signs(
     right: impl Fn(usize) -> Vec<f64>,
 ) -> Result<Signs, FactorError> {
     let solver = Certified::new(matrix, rows.iter().map(|t| t.explained).collect())?;
-    let defect = solver.influence_of(&rows.iter().map(|t| t.defect).collect::<Vec<_>>());
+    let explained = perturbed(solver.influence());
+    let defect = perturbed(&solver.influence_of(&rows.iter().map(|t| t.defect).collect::<Vec<_>>()));
     let mut found = Signs {
         low: Extreme::NONE,
         high: Extreme::NONE,
@@ -106,7 +125,7 @@ pub(crate) fn signs(
             }
             let size = tau + x.iter().fold(1.0_f64, |m, v| m.max(v.abs()));
             for (row, &value) in x.iter().enumerate() {
-                let (error, limit) = (size * solver.influence()[row], size * defect[row]);
+                let (error, limit) = (size * explained[row], size * defect[row]);
                 let at =
                     |outside: f64| Extreme { margin: outside / error, severity: outside / limit, column, row, value };
                 found.smallest = found.smallest.min(value);
@@ -117,4 +136,46 @@ pub(crate) fn signs(
         }
     }
     Ok(found)
+}
+
+/// `g / (1 − ‖g‖)`, infinite where that is no bound.
+fn perturbed(influence: &[f64]) -> Vec<f64> {
+    let largest = influence.iter().copied().fold(0.0, f64::max);
+    influence.iter().map(|g| if largest < 1.0 { g / (1.0 - largest) } else { f64::INFINITY }).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `[1 + a, −1; −1, 1 + a]`, whose inverse has the row sums 1/a, with values 1 prescribed beyond.
+    fn found(a: f64, explained: f64) -> Signs {
+        let matrix = Csr::from_triplets(2, 2, &[(0, 0, 1.0 + a), (0, 1, -1.0), (1, 0, -1.0), (1, 1, 1.0 + a)]);
+        let rows = [Threshold { explained, defect: 4.0 * explained }; 2];
+        signs(matrix, &rows, 1, |_| vec![a, -2.0 * a]).unwrap()
+    }
+
+    #[test]
+    fn a_nearly_singular_matrix_decides_nothing_however_negative_its_solution() {
+        // ‖g‖ = explained / a. The solution is (1 + O(a), …) / … and negative by about a half.
+        let (sound, singular) = (found(1e-3, 1e-9), found(1e-3, 1e-2));
+        assert!(sound.is_negative() && sound.is_certain());
+        assert!(!singular.is_negative() && !singular.is_certain());
+        // Up to a defect's worth the matrix meant may be singular, up to rounding it is not.
+        let between = found(1e-3, 3e-4);
+        assert!(!between.is_negative() && !between.is_certain());
+    }
+
+    #[test]
+    fn the_error_covers_the_solution_of_every_perturbed_matrix() {
+        let (a, delta) = (0.01, 1e-4);
+        let (plain, base) = (found(a, 2.0 * delta), [a, -2.0 * a]);
+        for corner in 0..16 {
+            let sign = |k: usize| if corner >> k & 1 == 0 { delta } else { -delta };
+            let (p, q, r, s) = (1.0 + a + sign(0), -1.0 + sign(1), -1.0 + sign(2), 1.0 + a + sign(3));
+            let det = p * s - q * r;
+            let x = [(s * base[0] - q * base[1]) / det, (p * base[1] - r * base[0]) / det];
+            assert!(x[0].min(x[1]) >= plain.smallest - plain.error, "corner {corner}");
+        }
+    }
 }

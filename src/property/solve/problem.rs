@@ -185,6 +185,8 @@ impl<'a> Problem<'a> {
             let low = signs.is_negative();
             let at = if low { signs.low } else { signs.high };
             return self.overshoot(sources[at.column], at.row, at.value, low, level).with_margin(at.severity);
+        } else if signs.is_nonnegative() && signs.is_at_most_one() && !signs.is_certain() {
+            Verdict::undecided(signs.uncertainty())
         } else if signs.is_nonnegative() && signs.is_at_most_one() {
             let (columns, error) = (signs.columns, signs.error);
             // Without a source the solution is zero.
