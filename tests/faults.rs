@@ -62,8 +62,7 @@ fn the_property_meant_for_a_fault_is_the_first_to_catch_it_on_some_mesh() {
     for fault in fault::all().filter(|f| !f.caught_by.is_empty()) {
         let by: BTreeSet<String> =
             TRIAL.plantings.iter().filter(|p| p.fault == fault.id).map(|p| p.result.by()).collect();
-        let only_compared = fault.blind.iter().any(|b| matches!(b, Blind::Anywhere(_)));
-        assert!(by.contains(fault.caught_by[0]) || only_compared, "{}: {by:?}", fault.id);
+        assert!(by.contains(fault.caught_by[0]), "{}: {by:?}", fault.id);
     }
 }
 
@@ -76,11 +75,10 @@ fn every_other_property_named_catches_something() {
             _ => false,
         })
     };
-    for fault in fault::all().filter(|f| !f.blind.iter().any(|b| matches!(b, Blind::Anywhere(_)))) {
-        for id in fault.caught_by {
-            assert!(caught(fault, id), "{} is said to be caught by {id}", fault.id);
-        }
-    }
+    let claims = fault::all().flat_map(|f| f.caught_by.iter().map(move |id| (f, *id)));
+    let idle: Vec<String> =
+        claims.filter(|(f, id)| !caught(f, id)).map(|(f, id)| format!("{} by {id}", f.id)).collect();
+    assert!(idle.is_empty(), "said to be caught, and never is: {idle:?}");
 }
 
 #[test]
@@ -90,6 +88,9 @@ fn every_fault_changes_some_operator_and_the_stored_zero_none() {
         let changed = results().any(|r| !matches!(r, PlantingResult::Unchanged | PlantingResult::NotHere(_)));
         assert_eq!(changed, fault.id != "stored-zero", "{}", fault.id);
     }
+    // No property can see a lumped mass that passes for a consistent one; the comparison does.
+    let lumped = TRIAL.plantings.iter().filter(|p| p.fault == "lumped-for-consistent");
+    assert!(lumped.clone().any(|p| matches!(p.result, PlantingResult::Compared { .. })));
     let zero = TRIAL.plantings.iter().filter(|p| p.fault == "stored-zero");
     assert!(zero.clone().any(|p| p.result == PlantingResult::Unchanged));
 }
@@ -188,7 +189,7 @@ fn masses_of_one_kind_agree_whoever_adds_them_up_and_of_two_kinds_do_not() {
             let same = compare_mass(&domain, again.mass().unwrap(), ours, kind);
             assert_eq!((same.open, same.beyond), (0, 0), "{recipe} {kind}: {same}");
             // A millionth more at one vertex is a difference where triangles are good.
-            let (i, d) = (ours.size() - 1, ours.matrix().clone());
+            let (i, d) = (0, ours.matrix().clone());
             let off =
                 Mass::full(MassKind::Given, d.map(|a, b, v| if a == i && b == i { v * (1.0 + 1e-6) } else { *v }));
             let other = compare_mass(&domain, &off, ours, kind);
@@ -233,5 +234,10 @@ fn the_reports_name_every_fault_and_every_operator() {
     assert_eq!(table.lines().count(), 1 + TRIAL.faults.len() * TRIAL.classes().len());
     let campaign = lapjury::report::alarms::render(&CAMPAIGN).unwrap();
     let page = String::from_utf8(campaign.iter().find(|f| f.path == "campaign.html").unwrap().bytes.clone()).unwrap();
-    assert!(page.contains("intrinsic-delaunay") && page.contains("high-valence") && !page.contains("http"));
+    assert!(
+        page.contains("intrinsic-delaunay")
+            && page.contains("high-valence")
+            && !page.contains("http://")
+            && !page.contains("https://")
+    );
 }

@@ -119,7 +119,7 @@ pub(super) static FAULTS: &[Fault] = &[
     fault(
         "overwritten",
         "contributions to a place are assigned, not added: the last triangle wins",
-        &["NULL", "SYM"],
+        &["NULL"],
         &[Blind::AnglesBelow(1.0)],
         |s, _| {
             let triangles = s.triangles()?;

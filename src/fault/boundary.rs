@@ -61,7 +61,7 @@ pub(super) static FAULTS: &[Fault] = &[
     fault(
         "interior-weights-halved",
         "the factor ½ taken twice inside, and once on the boundary",
-        &["ENERGY", "FLUX", "LIN"],
+        &["ENERGY", "FLUX"],
         SLIVERS,
         |s, _| weights(s, false, 0.5),
     ),

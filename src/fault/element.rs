@@ -94,7 +94,7 @@ pub(super) static FAULTS: &[Fault] = &[
     fault(
         "area-not-doubled",
         "the dot product over the area, and not over twice the area",
-        WEIGHTS,
+        &["ENERGY", "FLUX"],
         SLIVERS,
         |s, _| each(s, |t, c| t.cotangents[c]),
     ),
@@ -141,7 +141,7 @@ pub(super) static FAULTS: &[Fault] = &[
     fault(
         "mean-of-two-on-all",
         "every weight the mean of its two cotangents, also where there is one",
-        WEIGHTS,
+        &["ENERGY", "FLUX"],
         SLIVERS,
         |s, _| {
             let triangles = s.triangles()?;

@@ -65,7 +65,7 @@ pub(super) static FAULTS: &[Fault] = &[
     fault(
         "rows-off-by-one",
         "row indices one too large, column indices right",
-        &["SYM", "NULL", "LOC"],
+        &["SYM", "LOC"],
         &[Blind::AnglesBelow(0.01)],
         |s, _| {
             let n = s.size();

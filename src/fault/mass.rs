@@ -26,6 +26,17 @@ const fn fault(
     Fault { id, what, class: Class::Mass, masses, caught_by: &["MASS"], blind, change }
 }
 
+/// A fault that no property can see: total, row sums and definiteness are as they should be.
+const fn hidden(
+    id: &'static str,
+    what: &'static str,
+    masses: &'static [MassKind],
+    why: &'static [Blind],
+    change: fn(&Site, &mut Stream) -> Spoilt,
+) -> Fault {
+    Fault { caught_by: &[], ..fault(id, what, masses, why, change) }
+}
+
 fn times(site: &Site, factor: f64) -> Spoilt {
     site.with_mass(site.mass()?.matrix().map(|_, _, v| factor * v))
 }
@@ -152,7 +163,7 @@ pub(super) static FAULTS: &[Fault] = &[
         &[Blind::AnglesBelow(1.0), Blind::Undeclared],
         |s, _| rule(s, |t, _| t.area() / 3.0),
     ),
-    fault(
+    hidden(
         "lumped-for-consistent",
         "the row sums of the consistent mass, labelled consistent",
         &[MassKind::Consistent],
@@ -161,7 +172,7 @@ pub(super) static FAULTS: &[Fault] = &[
         )],
         |s, _| rule(s, |t, _| t.area() / 3.0),
     ),
-    fault(
+    hidden(
         "consistent-for-lumped",
         "the consistent mass, labelled barycentric",
         &[MassKind::Barycentric],

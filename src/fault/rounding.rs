@@ -55,7 +55,7 @@ pub(super) static FAULTS: &[Fault] = &[
     fault(
         "small-weights-dropped",
         "weights below a hundredth of their row taken for zero",
-        &["NULL", "SYM"],
+        &["NULL"],
         &[Blind::AnglesBelow(1.0)],
         |s, _| {
             let scales = s.stiffness().row_scales();
