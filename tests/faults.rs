@@ -37,7 +37,7 @@ fn cotan(domain: &Domain, mass: &str) -> Operator {
 
 fn spoilt(fault: &str, domain: &Domain, operator: &Operator, seed: u64) -> Operator {
     match fault::find(fault).unwrap().plant(domain, operator, seed) {
-        Planting::Spoilt(spoilt) => spoilt,
+        Planting::Spoilt(spoilt) => *spoilt,
         Planting::Unchanged => panic!("{fault} changes nothing"),
         Planting::NotHere(why) => panic!("{fault}: {why}"),
     }

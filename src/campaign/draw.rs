@@ -17,8 +17,11 @@ pub struct Draw {
     pub recipe: String,
 }
 
+/// A class with what writes its recipes.
+type Family = (&'static str, fn(&mut Stream) -> String);
+
 /// The classes, in turn.
-const CLASSES: [(&str, fn(&mut Stream) -> String); 15] = [
+const CLASSES: [Family; 15] = [
     ("planar", planar),
     ("planar-delaunay", delaunay),
     ("planar-flipped", |s| format!("{} | flip:count={},seed={}", delaunay(s), 1 + s.below(9), s.below(1000))),

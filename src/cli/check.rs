@@ -195,10 +195,8 @@ impl Check {
 fn compare(domain: &Domain, operator: &Operator, choice: &Choice) -> anyhow::Result<Vec<Comparison>> {
     let (ours, label) = (choice.build(domain)?, choice.to_string());
     let mut comparisons = vec![external::compare(domain, operator, &ours, &label)];
-    if choice.names("mass") {
-        if let (Some(theirs), Some(ours)) = (operator.mass(), ours.mass()) {
-            comparisons.push(external::compare_mass(domain, theirs, ours, &format!("{label}, mass")));
-        }
+    if let (true, Some(theirs), Some(ours)) = (choice.names("mass"), operator.mass(), ours.mass()) {
+        comparisons.push(external::compare_mass(domain, theirs, ours, &format!("{label}, mass")));
     }
     Ok(comparisons)
 }

@@ -186,7 +186,7 @@ impl Blind {
 /// What planting a fault came to.
 pub enum Planting {
     /// The spoilt operator.
-    Spoilt(Operator),
+    Spoilt(Box<Operator>),
     /// It does not change the operator here.
     Unchanged,
     /// It does not apply here, for this reason.
@@ -205,7 +205,7 @@ impl Fault {
         match (self.change)(&Site::new(domain, operator), &mut stream) {
             Err(why) => Planting::NotHere(why),
             Ok(spoilt) if same(operator, &spoilt) => Planting::Unchanged,
-            Ok(spoilt) => Planting::Spoilt(spoilt),
+            Ok(spoilt) => Planting::Spoilt(Box::new(spoilt)),
         }
     }
 
