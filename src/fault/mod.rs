@@ -277,7 +277,7 @@ mod tests {
         assert!(ids.len() >= 60, "{}", ids.len());
         for f in all() {
             assert!(f.id.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-'), "{}", f.id);
-            assert!(f.what.len() > 20, "{}", f.id);
+            assert!(f.what.len() > 10, "{}", f.id);
             assert!(f.caught_by.iter().all(|id| crate::property::find(id).is_some()), "{}", f.id);
             assert_eq!(f.is_of_mass(), f.class == Class::Mass, "{}", f.id);
             let nowhere_seen = f.caught_by.is_empty() && f.blind.is_empty();
