@@ -135,12 +135,14 @@
 
 #[macro_use]
 mod catalogue;
+pub mod campaign;
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod domain;
 pub mod exchange;
 pub mod experiment;
 pub mod external;
+pub mod fault;
 pub mod generate;
 pub mod laplacian;
 pub mod linalg;

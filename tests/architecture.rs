@@ -21,6 +21,8 @@ fn allowed() -> BTreeMap<&'static str, Vec<&'static str>> {
         ("property", vec!["scalar", "stream", "linalg", "domain", "operator"]),
         ("exchange", vec!["linalg", "domain"]),
         ("external", with(&["exchange", "property"])),
+        ("fault", vec!["scalar", "stream", "linalg", "domain", "operator"]),
+        ("campaign", vec!["stream", "domain", "operator", "property", "external", "record", "suite", "fault"]),
         ("experiment", with(&["generate", "laplacian", "property"])),
         ("record", vec!["domain", "property"]),
         ("suite", with(&["generate", "laplacian", "property", "exchange", "external", "experiment", "record"])),
@@ -37,6 +39,8 @@ fn allowed() -> BTreeMap<&'static str, Vec<&'static str>> {
                 "record",
                 "suite",
                 "report",
+                "fault",
+                "campaign",
             ]),
         ),
     ])

@@ -11,7 +11,7 @@ use anyhow::{Context, bail};
 use super::{Common, Exit, Format, colour, print, print_json};
 use crate::domain::{Domain, Facts};
 use crate::exchange;
-use crate::external::{self, DeclaredSign};
+use crate::external::{self, Comparison, DeclaredSign};
 use crate::operator::Operator;
 use crate::property::{self, Property, Status, Trial, Verdict};
 use crate::record::Recheck;
@@ -60,7 +60,8 @@ pub(super) struct Check {
     /// What the operator is promised to hold, beside what the catalogue promises of it
     #[arg(long, value_name = "ID,…", value_delimiter = ',')]
     promises: Vec<String>,
-    /// Compare entry by entry with a built-in operator, within the bound that the mesh's conditioning sets
+    /// Compare entry by entry with a built-in operator, within the bound that the mesh's conditioning sets; the mass too where
+    /// one is named, as in cotan:mass=mixed
     #[arg(long, value_name = "ID")]
     against: Option<String>,
     /// Shrink the surface while the first failing property of the built-in operator fails, and write the small mesh there
@@ -98,18 +99,19 @@ impl Check {
         let trial = Trial::new(&domain, &operator, cases::seed_of(&source))?;
         let decided: Vec<Decided> =
             properties.into_iter().map(|property| self.decide(property, &trial, choice.as_ref(), &facts)).collect();
-        let compare = |ours: Choice| -> anyhow::Result<_> {
-            Ok(external::compare(&domain, &operator, &ours.build(&domain)?, &ours.to_string()))
+        let comparisons = match &against {
+            Some(ours) => compare(&domain, &operator, ours)?,
+            None => Vec::new(),
         };
-        let comparison = against.map(compare).transpose()?;
-        let differs = comparison.as_ref().is_some_and(|c| c.beyond > 0);
+        let differs = comparisons.iter().any(|c| c.beyond > 0);
         match self.format {
-            Format::Human => print(&human(&source, &facts, &operator, &decided, comparison.as_ref()))?,
+            Format::Human => print(&human(&source, &facts, &operator, &decided, &comparisons))?,
             Format::Json => print_json(&Answer {
                 domain: DomainAnswer::new(&source, &domain, &facts),
                 operator: OperatorAnswer::built(&operator),
                 verdicts: decided.iter().map(VerdictAnswer::new).collect(),
-                comparison,
+                comparison: comparisons.first().cloned(),
+                mass_comparison: comparisons.get(1).cloned(),
             })?,
         }
         if let (Some(dir), Some(choice)) = (&self.shrink, &choice) {
@@ -178,7 +180,7 @@ impl Check {
     fn refuse(&self, domain: DomainAnswer, refusal: &str) -> anyhow::Result<Exit> {
         if self.format == Format::Json {
             let operator = OperatorAnswer::refused(self.laplacian.as_deref().unwrap_or_default(), refusal);
-            print_json(&Answer { domain, operator, verdicts: Vec::new(), comparison: None })?;
+            print_json(&Answer { domain, operator, verdicts: Vec::new(), comparison: None, mass_comparison: None })?;
         }
         bail!("no operator, so no verdict: {refusal}")
     }
@@ -195,6 +197,16 @@ impl Check {
         let promised = by_catalogue.or(self.promises(property).then_some(true));
         Decided { property, verdict, recheck, promised }
     }
+}
+
+/// The stiffness compared with that of a built-in operator, and the mass where the choice names one.
+fn compare(domain: &Domain, operator: &Operator, choice: &Choice) -> anyhow::Result<Vec<Comparison>> {
+    let (ours, label) = (choice.build(domain)?, choice.to_string());
+    let mut comparisons = vec![external::compare(domain, operator, &ours, &label)];
+    if let (true, Some(theirs), Some(ours)) = (choice.names("mass"), operator.mass(), ours.mass()) {
+        comparisons.push(external::compare_mass(domain, theirs, ours, &format!("{label}, mass")));
+    }
+    Ok(comparisons)
 }
 
 impl Decided {

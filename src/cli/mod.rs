@@ -1,8 +1,10 @@
 //! The command line: one verb a file. Results go to standard output, chatter to standard error.
 
+mod campaign;
 mod check;
 mod explain;
 mod export;
+mod faults;
 mod generate;
 mod list;
 mod progress;
@@ -92,6 +94,10 @@ enum Verb {
     Report(report::Report),
     /// Verify all evidence of a record again, independently of the checkers
     Recheck(recheck::Recheck),
+    /// Plant every known fault on every mesh of a pool: who catches it?
+    Faults(faults::Faults),
+    /// Judge correct operators on thousands of generated domains, in search of false alarms
+    Campaign(campaign::Campaign),
 }
 
 /// Runs the program.
@@ -110,6 +116,8 @@ pub fn main() -> ExitCode {
         Verb::Export(verb) => verb.execute(common),
         Verb::Report(verb) => verb.execute(common),
         Verb::Recheck(verb) => verb.execute(common),
+        Verb::Faults(verb) => verb.execute(common),
+        Verb::Campaign(verb) => verb.execute(common),
     };
     match result {
         Ok(exit) => ExitCode::from(exit as u8),

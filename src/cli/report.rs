@@ -59,6 +59,11 @@ pub(super) fn write_files(record: &Record, out: &Path, png: bool) -> anyhow::Res
     if png {
         files.extend(pictures(record)?);
     }
+    write_all(files, out)
+}
+
+/// Writes files below a directory.
+pub(super) fn write_all(files: Vec<File>, out: &Path) -> anyhow::Result<()> {
     for file in files {
         let path = out.join(&file.path);
         if let Some(parent) = path.parent() {

@@ -4,7 +4,7 @@ mod compare;
 
 use std::path::Path;
 
-pub use compare::{Comparison, compare};
+pub use compare::{Comparison, Difference, compare, compare_mass};
 
 use crate::exchange::{self, ReadError};
 use crate::operator::convention::{Sign, SignError, check_declared, detect_sign, to_ours};

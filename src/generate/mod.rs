@@ -45,6 +45,7 @@ catalogue! {
     tet_grid,
     torus,
     translate,
+    wheel,
     worst_angle,
 }
 

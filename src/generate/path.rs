@@ -16,7 +16,7 @@ pub static ENTRY: Generator = Generator {
     ],
     sources: &[],
     parameters: &[
-        Parameter { name: "n", meaning: "number of vertices", default: "12", range: Range::Whole(2, 1_000_000) },
+        Parameter { name: "n", meaning: "number of vertices", default: "12", range: Range::Whole(1, 1_000_000) },
         BOUNDARY,
     ],
     make: Make::Source(make),
@@ -26,7 +26,7 @@ fn make(settings: &Settings, _: &mut Stream) -> Result<Domain, GenerateError> {
     let n = settings.whole("n");
     admit("path", "vertices", n)?;
     let edges: Vec<[usize; 2]> = (1..n).map(|k| [k - 1, k]).collect();
-    let order: Vec<usize> = [0, n - 1].into_iter().chain(1..n - 1).collect();
+    let order: Vec<usize> = [0].into_iter().chain((1..n).rev().take(1)).chain(1..n.saturating_sub(1)).collect();
     bounded("path", (n, &edges), &order, settings)
 }
 
@@ -36,6 +36,8 @@ mod tests {
 
     #[test]
     fn a_path_is_a_tree_with_two_leaves_which_are_the_first_boundary() {
+        let single = make("path", &[("n", "1")], 0).facts();
+        assert_eq!((single.vertices, single.edges), (1, 0));
         for n in 2..30 {
             let domain = make("path", &[("n", &n.to_string()), ("boundary", "2")], 0);
             let facts = domain.facts();

@@ -2,7 +2,8 @@
 //!
 //! # Definition
 //! One implicit Euler step `(M + tL)⁻¹ M ≥ 0` entrywise, for `t = h²/16, h², 16h²`: h² is the mean squared edge length, the time in
-//! which heat crosses an edge; 1 on a graph.
+//! which heat crosses an edge; 1 on a graph, and where the mass counts vertices or edges (`unit`, `degree`) and no area: there M/L
+//! is no squared length.
 //!
 //! # Decision
 //! 1. A lumped positive mass, no negative weight, and row sums of L that are not below zero by more than rounding, or by what the
@@ -28,7 +29,7 @@ use super::solve::dirichlet::{self, Signs};
 use super::tolerance::Threshold;
 use super::{Evidence, Level, Property, Question, Statement, Trial, Verdict};
 use crate::linalg::Csr;
-use crate::operator::Mass;
+use crate::operator::{Mass, MassKind};
 use crate::stream::Stream;
 
 /// Up to this many vertices every column is computed.
@@ -64,7 +65,8 @@ fn decide(trial: &Trial) -> Verdict {
             "row {i} of the mass has a diagonal entry or a sum that is not positive"
         ));
     }
-    let Some(unit) = squared_edge_length(trial) else {
+    let counts = matches!(mass.kind(), MassKind::Unit | MassKind::Degree);
+    let Some(unit) = (if counts { Some(1.0) } else { squared_edge_length(trial) }) else {
         return Verdict::not_applicable("the domain has no edge of positive length to measure time by");
     };
     let heat = Heat { trial, mass, times: TIMES.map(|t| t * unit) };

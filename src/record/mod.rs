@@ -3,15 +3,19 @@
 //! Each line is one [`Line`]. Timings have a line of their own, so that the digest over the other lines is the same for any
 //! number of threads and on any machine.
 
+pub mod alarms;
 mod contents;
 mod digest;
 mod index;
+pub mod planted;
 mod read;
 mod write;
 
+pub use alarms::Alarms;
 pub use contents::Record;
 pub use digest::Digest;
 pub use index::Index;
+pub use planted::Planted;
 pub use read::ReadError;
 pub use write::{WriteError, Writer};
 

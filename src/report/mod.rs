@@ -4,6 +4,7 @@
 //! [`render`] gives every file of a report directory; [`text::text`] what a terminal shows. A picture or a chart as PNG comes
 //! from [`exhibit_png`] and [`plot::Chart::png`].
 
+pub mod alarms;
 mod atlas;
 pub mod csv;
 mod download;
@@ -14,6 +15,7 @@ mod junit;
 mod markdown;
 pub mod number;
 mod picture;
+pub mod planted;
 pub mod plot;
 pub mod png;
 mod reciprocal;

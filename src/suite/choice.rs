@@ -54,6 +54,11 @@ impl Choice {
         self.laplacian.promises_with(property, facts, &self.call.settings)
     }
 
+    /// Whether a setting was given, rather than left at its default.
+    pub fn names(&self, key: &str) -> bool {
+        self.call.settings.contains_key(key)
+    }
+
     /// The same choice with one more setting.
     ///
     /// # Errors

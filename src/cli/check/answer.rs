@@ -15,6 +15,8 @@ pub(super) struct Answer<'a> {
     pub(super) verdicts: Vec<VerdictAnswer<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) comparison: Option<Comparison>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) mass_comparison: Option<Comparison>,
 }
 
 #[derive(serde::Serialize)]

@@ -16,13 +16,13 @@ pub(super) fn human(
     facts: &Facts,
     operator: &Operator,
     decided: &[Decided],
-    comparison: Option<&Comparison>,
+    comparisons: &[Comparison],
 ) -> String {
     let mut text = format!("{}\n{}\n", domain_line(source, facts), operator_line(operator));
     for d in decided {
         text += &verdict_line(d);
     }
-    if let Some(c) = comparison {
+    for c in comparisons {
         text += &format!("\n{c}\n");
     }
     text

@@ -1,6 +1,7 @@
 //! One self-contained page: it works from `file://` without a request, reads without JavaScript and without a style sheet,
 //! on light and dark screens, narrow ones, and on paper. A file for each section.
 
+mod alarms;
 mod anchor;
 mod atlas;
 mod claims;
@@ -8,15 +9,20 @@ mod evidence;
 mod exhibits;
 mod header;
 mod matrix;
+mod planted;
 mod provenance;
+mod shell;
 mod tables;
 
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use maud::{Markup, PreEscaped, html};
 
 use super::plot::charts;
 use super::{File, Options, RenderError};
 use crate::record::{Index, Record};
+pub(super) use alarms::page as alarms_page;
 use anchor::Anchors;
+pub(super) use planted::page as planted_page;
+use shell::shell;
 
 /// What every section needs.
 struct Page<'a> {
@@ -25,9 +31,6 @@ struct Page<'a> {
     options: &'a Options,
     anchors: Anchors,
 }
-
-/// Nothing is ever loaded: not even a script of this page could.
-const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
 
 /// The sections, by anchor and title, as the navigation lists them.
 const SECTIONS: [(&str, &str); 9] = [
@@ -53,41 +56,20 @@ pub fn html(record: &Record, options: &Options, files: &[File]) -> Result<String
     let anchors = Anchors::of(&index, in_atlas, record.claims.iter().map(|c| c.id.as_str()));
     let page = Page { record, index, options, anchors };
     let plots = plots(record)?;
-    let body = html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                meta name="color-scheme" content="light dark";
-                meta http-equiv="Content-Security-Policy" content=(POLICY);
-                link rel="icon" href="data:,";
-                title { "Discrete Laplacians on trial: " (record.header.suite) }
-                style { (PreEscaped(include_str!("page.css"))) }
-            }
-            body {
-                a.skip href="#taxonomy" { "Skip to the taxonomy" }
-                (header::header(&page))
-                nav aria-label="Sections" {
-                    @for (id, title) in SECTIONS { a href={ "#" (id) } { (title) } " " }
-                }
-                main {
-                    (matrix::section(&page))
-                    (tables::unexpected(&page))
-                    (claims::section(&page))
-                    (atlas::section(&page))
-                    (exhibits::section(&page))
-                    (evidence::section(&page))
-                    (plots)
-                    (tables::domains(&page))
-                    (provenance::section(&page, files))
-                    (provenance::sources(&page))
-                }
-                script { (PreEscaped(include_str!("page.js"))) }
-            }
-        }
+    let main = html! {
+        (matrix::section(&page))
+        (tables::unexpected(&page))
+        (claims::section(&page))
+        (atlas::section(&page))
+        (exhibits::section(&page))
+        (evidence::section(&page))
+        (plots)
+        (tables::domains(&page))
+        (provenance::section(&page, files))
+        (provenance::sources(&page))
     };
-    Ok(body.into_string())
+    let title = format!("Discrete Laplacians on trial: {}", record.header.suite);
+    Ok(shell(&title, &SECTIONS, header::header(&page), main))
 }
 
 fn plots(record: &Record) -> Result<Markup, RenderError> {
