@@ -228,11 +228,12 @@ fn every_kind_of_evidence_has_a_sentence_of_its_own_and_every_witness_a_picture(
         assert!(said.len() > 20 && !said.contains("NaN") || property == &"FIN", "{said}");
         sentences.insert(said);
     }
-    for statement in sample::certificates() {
+    let others: Vec<Statement> = sample::certificates().into_iter().chain(sample::triangulations()).collect();
+    for statement in others.iter().cloned() {
         let verdict = Verdict::holds(lapjury::property::Level::Exact, lapjury::property::Evidence::bare(statement));
         sentences.insert(report::sentence(&verdict));
     }
-    assert_eq!(sentences.len(), witnesses.len() + sample::certificates().len());
+    assert_eq!(sentences.len(), witnesses.len() + others.len());
     for exhibit in &record.exhibits {
         let svg = report::exhibit_svg(exhibit, record.index().cell_of(exhibit)).unwrap();
         balanced(&svg);
@@ -244,13 +245,17 @@ fn every_kind_of_evidence_has_a_sentence_of_its_own_and_every_witness_a_picture(
 
 #[test]
 fn the_sample_has_every_kind_of_statement() {
-    let statements: Vec<Statement> =
-        sample::witnesses().into_iter().map(|w| w.1).chain(sample::certificates()).collect();
+    let statements: Vec<Statement> = sample::witnesses()
+        .into_iter()
+        .map(|w| w.1)
+        .chain(sample::certificates())
+        .chain(sample::triangulations())
+        .collect();
     let found: BTreeSet<&str> = statements.iter().map(kind).collect();
     assert_eq!(found.len(), KINDS, "a kind of evidence is missing in the sample");
 }
 
-const KINDS: usize = 29;
+const KINDS: usize = 34;
 
 /// The match makes a new kind of statement an error here, so that it is given a sentence, a picture and a sample.
 fn kind(statement: &Statement) -> &'static str {
@@ -284,6 +289,11 @@ fn kind(statement: &Statement) -> &'static str {
         Statement::SignPattern { .. } => "SignPattern",
         Statement::Solved { .. } => "Solved",
         Statement::Compared { .. } => "Compared",
+        Statement::FlipsToDelaunay { .. } => "FlipsToDelaunay",
+        Statement::DelaunayNotMinimal { .. } => "DelaunayNotMinimal",
+        Statement::PositiveExtension { .. } => "PositiveExtension",
+        Statement::NotEmbedded { .. } => "NotEmbedded",
+        Statement::TorusFlips { .. } => "TorusFlips",
     }
 }
 

@@ -20,6 +20,11 @@ catalogue! {
     heat_flow,
     linear_precision_of_graphs,
     cotangent_sign,
+    rippa_in_the_plane,
+    rippa_in_space,
+    tutte_embedding,
+    flips_in_the_plane,
+    flips_on_tori,
 }
 
 use crate::property::{Evidence, Level};

@@ -1,6 +1,9 @@
 //! Small worlds, enumerated whole: every graph with few vertices, every triangulation of few lattice points.
 
+pub mod descent;
+pub mod discs;
 pub mod excerpt;
+pub mod five_points;
 pub mod graphs;
 pub mod harmonic;
 pub mod triangulations;

@@ -71,6 +71,7 @@ pub static BUILT_IN: &[(&str, &str)] = &[
     ("taxonomy", include_str!("../../../suites/claims/taxonomy.toml")),
     ("graphs", include_str!("../../../suites/claims/graphs.toml")),
     ("discrete", include_str!("../../../suites/claims/discrete.toml")),
+    ("triangulations", include_str!("../../../suites/claims/triangulations.toml")),
 ];
 
 /// Every claim that comes with the program, in the order of the files.
