@@ -49,11 +49,17 @@ pub static ENTRY: Experiment = Experiment {
     run,
 };
 
+/// A flip: the corners a, b, c, d, and the number of the triangulation that it leads to.
+type Step = ([usize; 4], usize);
+
+/// The length of a longest sequence of flips and its first one.
+type Longest = (usize, Option<Step>);
+
 /// The triangulations of a point set and the flips between them that lower the lift.
 struct World {
     all: Vec<Triangulation>,
-    /// For each, the flips that lower its lift: the corners a, b, c, d and where they lead.
-    down: Vec<Vec<([usize; 4], usize)>>,
+    /// For each, the flips that lower its lift.
+    down: Vec<Vec<Step>>,
     /// Six times the volume below each lift.
     volume: Vec<i64>,
 }
@@ -77,7 +83,7 @@ impl World {
     }
 
     /// The longest sequence of flips from each triangulation, and its first flip; those of lower volume come first.
-    fn longest(&self) -> Vec<(usize, Option<([usize; 4], usize)>)> {
+    fn longest(&self) -> Vec<Longest> {
         let mut order: Vec<usize> = (0..self.all.len()).collect();
         order.sort_by_key(|&k| self.volume[k]);
         let mut longest = vec![(0, None); self.all.len()];
@@ -325,7 +331,7 @@ fn stiffness(t: &Triangulation) -> Option<Dense<Rational>> {
 }
 
 /// The certificate of the longest sequence of flips from a triangulation.
-fn certificate(world: &World, longest: &[(usize, Option<([usize; 4], usize)>)], start: usize) -> Option<Evidence> {
+fn certificate(world: &World, longest: &[Longest], start: usize) -> Option<Evidence> {
     let surface = world.all[start].surface();
     let points = surface.planar_positions::<Rational>()?;
     let (mut terms, mut at) = (Vec::new(), start);

@@ -33,7 +33,7 @@ pub(super) fn decide(
         let (kappa, w) = apply(&mut mesh, k, flip)?;
         check_exact(&format!("κ of flip {k}"), &flip.kappa, &kappa)?;
         let along = sum((0..4).map(|m| Rational::from(w[m].clone()) * u[flip.quad[m]].clone()));
-        energy = energy - Rational::half() * kappa.clone() * along.clone() * along;
+        energy -= Rational::half() * kappa.clone() * along.clone() * along;
         check_energy(k + 1, energies[k + 1], &energy)?;
         add_term(&mut terms, flip.quad, &kappa, &w);
     }
