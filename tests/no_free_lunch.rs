@@ -134,7 +134,8 @@ fn examples() -> Vec<Evidence> {
     let lift = twisted(&ratio(-1, 4), &ratio(2, 5), 1).unwrap();
     let motion = twisted(&ratio(1, 4), &ratio(2, 5), 1).unwrap();
     let whole = twisted(&ratio(0, 1), &ratio(2, 5), 2).unwrap();
-    let ring = Surface::new(whole.positions().to_vec(), whole.faces().iter().take(12).map(<[usize]>::to_vec).collect()).unwrap();
+    let ring = Surface::new(whole.positions().to_vec(), whole.faces().iter().take(12).map(<[usize]>::to_vec).collect())
+        .unwrap();
     let mut examples: Vec<Evidence> = [&lift, &motion, &ring].map(|s| certified(s).unwrap().evidence).to_vec();
     for which in [Lifting::Local, Lifting::Global] {
         examples.push(lifting(&motion, which).unwrap().unwrap_err());

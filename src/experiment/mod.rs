@@ -25,6 +25,11 @@ catalogue! {
     family_positivity,
     orthogonal_duals,
     pub no_free_lunch,
+    rippa_in_the_plane,
+    rippa_in_space,
+    tutte_embedding,
+    flips_in_the_plane,
+    flips_on_tori,
 }
 
 use crate::property::{Evidence, Level};

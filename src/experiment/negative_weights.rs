@@ -93,6 +93,17 @@ impl Specimen {
         entries.map(|(i, b)| h.at(i, b).clone()).reduce(|a, b| if b < a { b } else { a })
     }
 
+    /// The certificate of MAX-global with a negative weight; `None` where the extension has a zero.
+    fn positive_extension(&self, edge: &Edge, smallest: &Rational) -> Option<Evidence> {
+        let [i, j] = [edge.ends[0].min(edge.ends[1]), edge.ends[0].max(edge.ends[1])];
+        let text = |x: Rational| x.reduced().to_string();
+        let weight = text(-self.stiffness.at(i, j).clone());
+        let statement = Statement::PositiveExtension { i, j, weight, smallest: text(smallest.clone()) };
+        let all: Vec<usize> = (0..self.boundary.len()).collect();
+        let positive = smallest.cmp_zero() == Ordering::Greater;
+        positive.then(|| on_triangulation(statement, &self.triangulation, &self.stiffness, &all))
+    }
+
     fn no_maximum_principle(&self) -> Option<Case> {
         let violation = global(&self.stiffness, &self.prescribed())?;
         Some(self.case(&violation.text, violation.statement, &violation.rows))
@@ -145,8 +156,13 @@ impl Polls {
         self.negative += usize::from(edge.is_some());
         let negative = edge.map(|e| specimen.weight(e));
         self.negative_max.ask(negative.clone().filter(|_| broken.is_none()).map(|(weight, evidence)| {
-            let smallest = specimen.smallest_harmonic_value().map_or(String::new(), |h| format!(", min H = {h}"));
-            Case::shown(format!("{weight}{smallest} on {}", specimen.triangulation.describe()), evidence)
+            let smallest = specimen.smallest_harmonic_value();
+            let text = smallest.as_ref().map_or(String::new(), |h| format!(", min H = {h}"));
+            let certificate = edge.zip(smallest).and_then(|(edge, h)| specimen.positive_extension(edge, &h));
+            Case {
+                text: format!("{weight}{text} on {}", specimen.triangulation.describe()),
+                evidence: [evidence].into_iter().chain(certificate).collect(),
+            }
         }));
         self.negative_no_max.ask(
             negative

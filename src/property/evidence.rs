@@ -424,6 +424,130 @@ pub enum Statement {
         /// How many entries.
         entries: usize,
     },
+    // ── about triangulations, decided by what is written down and nothing else ─────────────────────────────────────
+    /// Rippa in the plane. From the faces of the excerpt (whole numbers as positions) the flips lead one after the other to the
+    /// Delaunay triangulation `end`; the cotangent stiffness falls with each by `κ w wᵀ`, κ > 0, and altogether by their sum:
+    /// `L_T − L_D = Σ κ w wᵀ`. All positions, all faces.
+    FlipsToDelaunay {
+        /// The flips in their order.
+        flips: Vec<Flip>,
+        /// The faces at the end.
+        end: Vec<[usize; 3]>,
+        /// A function by its values at the vertices, whole numbers.
+        values: Vec<f64>,
+        /// Its Dirichlet energy `½ uᵀLu` before the first flip and after each, rounded to the nearest `f64`.
+        energies: Vec<f64>,
+    },
+    /// Rippa in space (a witness against it): of the two triangulations of five points of the excerpt (whole numbers) the one
+    /// named `delaunay` is the only Delaunay triangulation, and a function has more Dirichlet energy on it than on `other`.
+    DelaunayNotMinimal {
+        /// The tetrahedra of the Delaunay triangulation.
+        delaunay: Vec<[usize; 4]>,
+        /// The tetrahedra of the other triangulation.
+        other: Vec<[usize; 4]>,
+        /// The function by its values at the vertices, whole numbers.
+        values: Vec<f64>,
+        /// Its energies `½ ∫ |∇u|²` on the two, exactly: `p/q` in lowest terms.
+        energies: [String; 2],
+    },
+    /// MAX-global with a negative weight: the cotangent weight of the edge (i, j), with an end inside, is negative on the
+    /// triangulation of the excerpt (whole numbers as positions, all faces), and yet every entry of the harmonic extension
+    /// `−L_II⁻¹ L_IB` from the boundary B is at least `smallest` > 0.
+    PositiveExtension {
+        /// One end.
+        i: usize,
+        /// The other end.
+        j: usize,
+        /// The weight, exactly: `p/q` in lowest terms.
+        weight: String,
+        /// The smallest entry, exactly. All rows, rounded to the nearest `f64`.
+        smallest: String,
+    },
+    /// Tutte (a witness against it without one of its hypotheses): `Σ_j ω_ij (x_j − x_i) = 0` exactly at every vertex that is
+    /// not on the `boundary`, a polygon, and the drawing is no embedding. Every hypothesis but `missing` holds, and that one
+    /// does not. All faces, where the graph is that of a triangulation.
+    NotEmbedded {
+        /// The boundary cycle, counter-clockwise around its area.
+        boundary: Vec<usize>,
+        /// The edges that have an end inside, with their weights, whole numbers.
+        weights: Vec<(usize, usize, f64)>,
+        /// The positions of the vertices, exactly: `p/q` in lowest terms.
+        drawing: Vec<[String; 2]>,
+        /// `Σ k (|e_k|² + ω_k)` over all edges e₁, e₂, … in lexicographic order, those of the polygon and of the faces included,
+        /// ω = 0 where none is given, exactly: every position and weight takes part in it, so that none can be changed alone.
+        checksum: String,
+        /// The hypothesis that is missing.
+        missing: Hypothesis,
+        /// What is wrong with the drawing.
+        fault: Fault,
+    },
+    /// Flips of a triangulation of the flat torus ℝ²/ℤ² with one vertex, whose edges are the two vectors of `start`, a basis of
+    /// ℤ², and their sum: it takes exactly `flips` flips, each of them forced, to the Delaunay triangulation with the edges
+    /// `end` and their sum.
+    TorusFlips {
+        /// Two edges of the triangulation.
+        start: [[i64; 2]; 2],
+        /// How many flips.
+        flips: usize,
+        /// Two edges of the Delaunay triangulation.
+        end: [[i64; 2]; 2],
+    },
+}
+
+/// A flip: the counter-clockwise quadrilateral `a, b, c, d` loses its diagonal `ac` and gets `bd`.
+///
+/// With `[xyz]` twice the area of a triangle and `w = ([bcd], −[acd], [abd], −[abc])`, the affine dependency of the corners,
+/// `L_before − L_after = κ w wᵀ`, `κ = incircle(a, b, c, d) / (2 [abc] [acd] [abd] [bcd])`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Flip {
+    /// The corners a, b, c, d.
+    pub quad: [usize; 4],
+    /// κ, exactly: `p/q` in lowest terms.
+    pub kappa: String,
+}
+
+/// The hypotheses of Tutte's theorem for the drawing of a triangulated disc or of a planar graph. Where nothing else is missing
+/// the boundary polygon is strictly convex, so that none of its sides has three vertices.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Hypothesis {
+    /// The boundary polygon is convex. (Where it is missing, no inner edge joins two vertices of the boundary.)
+    ConvexBoundary,
+    /// Every weight is positive.
+    PositiveWeights,
+    /// No edge inside joins two vertices of one side of the polygon.
+    NoChordOnASide,
+    /// The faces form a disc.
+    Disc,
+    /// The graph, given without faces, is 3-connected. (Where it is missing, there are at most four vertices, so that the
+    /// graph is planar and a triangle of it bounds a face.)
+    ThreeConnected,
+}
+
+/// What is wrong with a drawing.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(tag = "fault", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Fault {
+    /// This face of the excerpt is not drawn counter-clockwise, as its neighbours' boundary demands.
+    Face {
+        /// Its number.
+        face: usize,
+    },
+    /// The ends of this edge are drawn at the same place.
+    Edge {
+        /// One end.
+        a: usize,
+        /// The other end.
+        b: usize,
+    },
+    /// The areas of the drawn faces add up to more than the polygon's, so that two of them overlap.
+    Overlap {
+        /// Twice the sum of the areas, exactly.
+        faces: String,
+        /// Twice the area of the polygon, exactly.
+        polygon: String,
+    },
 }
 
 /// The largest number of matrix entries that a statement about all rows carries with it.

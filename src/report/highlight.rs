@@ -97,7 +97,12 @@ impl Highlight {
             | Statement::ClosedClasses { .. }
             | Statement::SignPattern { .. }
             | Statement::Solved { .. }
-            | Statement::Compared { .. } => none,
+            | Statement::Compared { .. }
+            | Statement::FlipsToDelaunay { .. }
+            | Statement::DelaunayNotMinimal { .. }
+            | Statement::NotEmbedded { .. }
+            | Statement::TorusFlips { .. } => none,
+            Statement::PositiveExtension { i, j, .. } => Highlight { bad: vec![[*i, *j]], ..none },
         }
     }
 

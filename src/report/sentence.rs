@@ -1,7 +1,7 @@
 //! A sentence for every kind of witness and certificate.
 
 use super::number::{count, degrees, number};
-use crate::record::evidence::{Corner, Row, SparseVector, Which};
+use crate::record::evidence::{Corner, Fault, Hypothesis, Row, SparseVector, Which};
 use crate::record::{Evidence, Excerpt, Outcome, Statement, Verdict};
 
 /// The verdict in words: what the evidence states, or why there is no decision.
@@ -202,6 +202,57 @@ pub fn statement(evidence: &Evidence) -> String {
             count(*entries),
             if transformations.is_empty() { "no transformation".to_string() } else { transformations.join("; ") }
         ),
+        Statement::FlipsToDelaunay { flips, energies, .. } => format!(
+            "{} flip{} to the Delaunay triangulation, each of which takes κ w wᵀ with κ > 0 from L, and their sum is L_T − L_D; \
+             a function's Dirichlet energy falls from {} to {}",
+            count(flips.len()),
+            if flips.len() == 1 { " leads" } else { "s lead" },
+            approximately(energies.first().copied()),
+            approximately(energies.last().copied())
+        ),
+        Statement::DelaunayNotMinimal { delaunay, other, values, energies: [on_delaunay, on_other] } => format!(
+            "on the Delaunay triangulation of {}, {} tetrahedra, the function with the values {} has the Dirichlet energy \
+             {on_delaunay}, and on the other one, {} tetrahedra, only {on_other}",
+            places(x),
+            delaunay.len(),
+            values.iter().map(|v| number(*v)).collect::<Vec<_>>().join(", "),
+            other.len()
+        ),
+        Statement::PositiveExtension { i, j, weight, smallest } => format!(
+            "ω = {weight} on the edge ({i}, {j}), and yet every entry of the harmonic extension from the boundary is positive, \
+             the smallest {smallest}"
+        ),
+        Statement::NotEmbedded { drawing, missing, fault, .. } => format!(
+            "all forces at the inner vertices vanish, {}, and {} in the drawing {}",
+            match missing {
+                Hypothesis::ConvexBoundary => "the boundary polygon is not convex",
+                Hypothesis::PositiveWeights => "a weight is negative",
+                Hypothesis::NoChordOnASide => "an edge joins two vertices of one side of the polygon",
+                Hypothesis::Disc => "the surface is no disc",
+                Hypothesis::ThreeConnected => "the graph is not 3-connected",
+            },
+            match fault {
+                Fault::Face { face } => format!("face {face} is not counter-clockwise"),
+                Fault::Edge { a, b } => format!("vertices {a} and {b}, which share an edge, coincide"),
+                Fault::Overlap { faces, polygon } =>
+                    format!("the faces take twice the area {faces}, the polygon has only {polygon}"),
+            },
+            drawing.iter().map(|[x, y]| format!("({x}, {y})")).collect::<Vec<_>>().join(" ")
+        ),
+        Statement::TorusFlips { start: [u, v], flips, end: [p, q] } => format!(
+            "on the flat torus ℝ²/ℤ² the triangulation with one vertex and the edges ({}, {}), ({}, {}) and their sum is exactly \
+             {} flip{} away from the Delaunay triangulation, with ({}, {}), ({}, {}) and their sum",
+            u[0],
+            u[1],
+            v[0],
+            v[1],
+            count(*flips),
+            if *flips == 1 { "" } else { "s" },
+            p[0],
+            p[1],
+            q[0],
+            q[1]
+        ),
     }
 }
 
@@ -251,6 +302,12 @@ fn asymmetry(name: &str, rows: &[Row], i: usize, j: usize, threshold: f64) -> St
         equals(entry(rows, j, i)),
         number(threshold)
     )
+}
+
+/// The positions of an excerpt as points of space.
+fn places(x: &Excerpt) -> String {
+    let point = |p: &(usize, [f64; 3])| format!("({}, {}, {})", number(p.1[0]), number(p.1[1]), number(p.1[2]));
+    x.positions.iter().map(point).collect::<Vec<_>>().join(" ")
 }
 
 fn row(rows: &[Row], i: usize) -> Option<&Row> {

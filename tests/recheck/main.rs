@@ -6,6 +6,7 @@ mod mutation;
 mod operators;
 mod performance;
 mod spoilt;
+mod triangulations;
 mod witnesses;
 
 use lapjury::domain::Domain;

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use lapjury::domain::{Domain, Graph, Surface};
-use lapjury::property::evidence::{Corner, Row, Which};
+use lapjury::property::evidence::{Corner, Fault, Flip, Hypothesis, Row, Which};
 use lapjury::property::{Evidence, Excerpt, Level, Statement, Tally, Verdict};
 use lapjury::record::{
     AtlasFound, AtlasLine, Cell, ClaimLine, ClaimOutcome, DomainLine, Exhibit, Header, Line, OperatorLine, Recheck,
@@ -277,6 +277,36 @@ pub fn certificates() -> Vec<Statement> {
     ]
 }
 
+/// Every kind of statement about triangulations and drawings.
+pub fn triangulations() -> Vec<Statement> {
+    let text = |x: &str| x.to_string();
+    let at = |x: &str, y: &str| [text(x), text(y)];
+    vec![
+        Statement::FlipsToDelaunay {
+            flips: vec![Flip { quad: [0, 1, 2, 3], kappa: text("3/64") }],
+            end: vec![[0, 1, 3], [1, 2, 3]],
+            values: vec![1.0, 0.0, 0.0, 0.0],
+            energies: vec![0.875, 0.5],
+        },
+        Statement::DelaunayNotMinimal {
+            delaunay: vec![[0, 1, 2, 3], [0, 2, 3, 4], [1, 2, 3, 4]],
+            other: vec![[0, 1, 2, 4], [0, 1, 3, 4]],
+            values: vec![1.0, 0.0, 0.0, 0.0, 0.0],
+            energies: [text("2/3"), text("11/24")],
+        },
+        Statement::PositiveExtension { i: 0, j: 4, weight: text("-1/4"), smallest: text("1/12") },
+        Statement::NotEmbedded {
+            boundary: vec![0, 1, 2],
+            weights: vec![(0, 3, 1.0), (1, 3, 1.0), (2, 3, -1.0)],
+            drawing: vec![at("0", "0"), at("1", "0"), at("0", "1"), at("1", "-1")],
+            checksum: text("12"),
+            missing: Hypothesis::PositiveWeights,
+            fault: Fault::Face { face: 0 },
+        },
+        Statement::TorusFlips { start: [[1, 0], [3, 1]], flips: 3, end: [[1, 0], [0, 1]] },
+    ]
+}
+
 const OPERATORS: [&str; 8] = [
     "graph",
     "cotan",
@@ -527,7 +557,7 @@ pub fn large() -> Record {
 }
 
 /// A statement of each kind about a triangulation: the star of a vertex in a square, its numbers for show.
-pub fn triangulations() -> Vec<lapjury::property::Evidence> {
+pub fn weighings() -> Vec<lapjury::property::Evidence> {
     use lapjury::property::evidence::Fraction;
     let number = |x: i64| Fraction::text(x.to_string());
     let positions: Vec<(usize, [f64; 3])> = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0], [0.0, 0.0]]

@@ -1,11 +1,14 @@
 //! Small worlds, enumerated whole: every graph with few vertices, every triangulation of few lattice points.
 
 pub mod certified;
+pub mod descent;
+pub mod discs;
 pub mod excerpt;
+pub mod five_points;
 pub mod graphs;
 pub mod harmonic;
-pub mod stars;
 pub mod lifting;
 pub mod planar;
+pub mod stars;
 pub mod triangulations;
 pub mod twisted;

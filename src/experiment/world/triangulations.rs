@@ -35,7 +35,8 @@ pub fn doubled_area(a: Point, b: Point, c: Point) -> i64 {
 }
 
 impl Triangulation {
-    fn new(points: &[Point], mut faces: Vec<[usize; 3]>) -> Self {
+    /// The triangulation with these counter-clockwise faces.
+    pub(in crate::experiment) fn new(points: &[Point], mut faces: Vec<[usize; 3]>) -> Self {
         faces.iter_mut().for_each(|f| {
             while f[0] > f[1] || f[0] > f[2] {
                 f.rotate_left(1)
@@ -142,8 +143,9 @@ pub fn triangulations(points: &[Point]) -> Vec<Triangulation> {
     met.into_iter().map(|faces| Triangulation { points: points.to_vec(), faces }).collect()
 }
 
-/// One triangulation: points in lexicographic order, each joined to the part of the hull that it sees.
-fn sweep(points: &[Point]) -> Option<Triangulation> {
+/// One triangulation: points in lexicographic order, each joined to the part of the hull that it sees; `None` for points on a
+/// line.
+pub fn sweep(points: &[Point]) -> Option<Triangulation> {
     let mut order: Vec<usize> = (0..points.len()).collect();
     order.sort_by_key(|&i| points[i]);
     let turn = |i: usize, j: usize, k: usize| doubled_area(points[i], points[j], points[k]);

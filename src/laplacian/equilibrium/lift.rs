@@ -49,7 +49,12 @@ impl Lift {
             if let [s, t] = topology.sides(edge) {
                 let [left, right] = if s.forward() { [s, t] } else { [t, s] };
                 let apex = |side: &crate::domain::topology::Side| faces[side.face()][(side.corner() + 2) % 3];
-                hinges.push(Hinge { edge, ends, apexes: [apex(left), apex(right)], faces: [left.face(), right.face()] });
+                hinges.push(Hinge {
+                    edge,
+                    ends,
+                    apexes: [apex(left), apex(right)],
+                    faces: [left.face(), right.face()],
+                });
             }
         }
         let vertices = positions.len();

@@ -19,20 +19,26 @@
 //! checker reports is not verified; the predicate is.
 
 mod accuracy;
+mod alone;
 mod bareiss;
 mod certificate;
 mod cheeger;
 mod classes;
 mod dense;
 mod dirichlet;
+mod drawing;
 mod energy;
 mod equilibrium;
 mod excerpt;
+mod extension;
+mod flips;
+mod lattice;
 mod leeway;
 mod mass;
 mod maximum;
 mod moment;
 mod place;
+mod planar;
 mod precision;
 mod profile;
 mod qr;
@@ -43,6 +49,7 @@ mod solutions;
 mod solve;
 mod spectrum;
 mod terms;
+mod tetrahedra;
 mod weight;
 mod witness;
 
@@ -151,13 +158,16 @@ type Answer = Result<Rechecked, Refusal>;
 
 /// Decides a witness on its excerpt alone: what a reader of the JSON can do without mesh and matrix.
 ///
-/// A certificate speaks of the whole matrix and comes back [`Rechecked::Open`]; so does a witness whose rows were too many to
-/// write down.
+/// A statement about a triangulation carries all that decides it, witness or certificate. Any other certificate speaks of the
+/// whole matrix and comes back [`Rechecked::Open`]; so does a witness whose rows were too many to write down.
 ///
 /// # Errors
 /// Evidence that is malformed, incomplete, or not true.
 pub fn from_excerpt(evidence: &Evidence) -> Answer {
     let material = Material::read(&evidence.excerpt)?;
+    if let Some(answer) = alone::decide(evidence) {
+        return answer;
+    }
     if !relevance::is_witness(&evidence.statement) {
         certificate::check_numbers(&evidence.statement)?;
         return Ok(Rechecked::Open("a certificate speaks of the whole matrix; recheck it against the operator".into()));
@@ -194,6 +204,9 @@ pub fn against(evidence: &Evidence, property: &str, domain: &Domain, operator: &
     relevance::check(statement, property)?;
     let material = Material::read(&evidence.excerpt)?;
     excerpt::check_copy(&evidence.excerpt, domain, operator)?;
+    if let Some(answer) = alone::decide(evidence) {
+        return answer;
+    }
     if !relevance::is_witness(statement) {
         certificate::check_numbers(statement)?;
         return certificate::decide(statement, property, domain, operator);

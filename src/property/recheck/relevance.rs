@@ -92,6 +92,11 @@ fn describe(statement: &Statement) -> (&'static str, bool, &'static [&'static st
         Statement::SignPattern { .. } => ("sign-pattern", false, &["MAX-global", "MAX-heat"]),
         Statement::Solved { .. } => ("solved", false, &["MAX-global", "MAX-heat"]),
         Statement::Compared { .. } => ("compared", false, RELATIONS),
+        Statement::FlipsToDelaunay { .. } => ("flips-to-delaunay", false, &[]),
+        Statement::DelaunayNotMinimal { .. } => ("delaunay-not-minimal", true, &[]),
+        Statement::PositiveExtension { .. } => ("positive-extension", false, &[]),
+        Statement::NotEmbedded { .. } => ("not-embedded", true, &[]),
+        Statement::TorusFlips { .. } => ("torus-flips", false, &[]),
     }
 }
 

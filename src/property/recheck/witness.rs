@@ -6,7 +6,8 @@ use std::collections::BTreeMap;
 use super::excerpt::{Material, Rows};
 use super::terms::{Terms, U};
 use super::{
-    Answer, Rechecked, Refusal, accuracy, check_threshold, cheeger, dirichlet, energy, equilibrium, mass, moment, relevance, weight,
+    Answer, Rechecked, Refusal, accuracy, check_threshold, cheeger, dirichlet, energy, equilibrium, mass, moment,
+    relevance, weight,
 };
 use crate::property::evidence::{SparseVector, Statement};
 use crate::scalar::Scalar;

@@ -3,6 +3,7 @@
 //! plotters places everything on whole pixels, so a chart is drawn at four times its size and shown smaller. Its ink is
 //! a colour of its own that becomes `currentColor` in the SVG.
 
+mod energy;
 mod margins;
 mod negative_weights;
 mod time;
@@ -45,6 +46,7 @@ pub struct Chart {
 /// What a chart shows.
 #[derive(Clone, Debug)]
 enum Data {
+    Energy(energy::Energy),
     Margins(margins::Margins),
     NegativeWeights(negative_weights::NegativeWeights),
     Time(time::Time),
@@ -52,7 +54,10 @@ enum Data {
 
 /// Every chart that the record has data for.
 pub fn charts(record: &Record) -> Vec<Chart> {
-    [margins::chart(record), negative_weights::chart(record), time::chart(record)].into_iter().flatten().collect()
+    [margins::chart(record), negative_weights::chart(record), energy::chart(record), time::chart(record)]
+        .into_iter()
+        .flatten()
+        .collect()
 }
 
 /// How much larger than shown a chart is drawn.
@@ -109,6 +114,7 @@ impl Chart {
 
     fn draw_on<B: DrawingBackend>(&self, area: DrawingArea<B, Shift>) -> Result<(), PlotError> {
         match &self.data {
+            Data::Energy(data) => data.draw(&area)?,
             Data::Margins(data) => data.draw(&area)?,
             Data::NegativeWeights(data) => data.draw(&area)?,
             Data::Time(data) => data.draw(&area)?,
