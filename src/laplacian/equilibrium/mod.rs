@@ -18,7 +18,7 @@
 //! `h = ½|x|²` gives the cotangent weights. Where the domain is no disc the weights themselves are the certificate.
 //!
 //! # How it is decided
-//! A linear program in floating point proposes ([`program::split`](crate::linalg::program::split)); the proposal is rounded
+//! A linear program in floating point proposes ([`program::split`]); the proposal is rounded
 //! to whole numbers and verified exactly. What does not survive that is decided by the exact simplex method.
 //!
 //! # Guarantees
