@@ -113,7 +113,7 @@ struct Small {
 
 fn small_discs(seed: u64, count: usize) -> Vec<Small> {
     let make = |k: usize| {
-        let Specimen { recipe, domain } = specimen(k, 10, &mut Stream::new(seed, &format!("{}/small/{k}", ENTRY.id)));
+        let Specimen { recipe, domain } = specimen(k, 7, &mut Stream::new(seed, &format!("{}/small/{k}", ENTRY.id)));
         let surface = domain.as_surface()?.clone();
         let [global, local] = [Lifting::Global, Lifting::Local].map(|which| lifting(&surface, which));
         let second = decide_by_simplex(&surface).map(|c| c.is_positive());
@@ -159,7 +159,7 @@ fn on_small_discs(small: &[Small]) -> Vec<Finding> {
             _ => told("positive weights without a weighted Delaunay triangulation, or the reverse"),
         });
     }
-    let cases = format!("Cases: {} random triangulations of 5 to 10 points, all of convex regions.", small.len());
+    let cases = format!("Cases: {} random triangulations of 5 to 9 points, all of convex regions.", small.len());
     vec![
         simplex.answer(
             ENTRY.parts[1],

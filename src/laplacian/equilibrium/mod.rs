@@ -18,7 +18,7 @@
 //! `h = ½|x|²` gives the cotangent weights. Where the domain is no disc the weights themselves are the certificate.
 //!
 //! # How it is decided
-//! A linear program in floating point proposes ([`program::split`](crate::linalg::program::split)); the proposal is rounded
+//! A linear program in floating point proposes ([`program::split`]); the proposal is rounded
 //! to whole numbers and verified exactly. What does not survive that is decided by the exact simplex method.
 //!
 //! # Guarantees
@@ -113,19 +113,36 @@ fn propose(net: &Net, lift: &Lift) -> Option<Certificate> {
     if net.edges().is_empty() {
         return if lift.is_disc() { lift.rounded(&[], net).map(Certificate::Heights) } else { None };
     }
-    let split = program::split(&net.forces())?;
-    if split.carried.iter().all(|c| *c) {
-        // Weights off a disc obey equations, which rounding breaks.
-        if !lift.is_disc() {
-            return None;
+    let forces = net.forces();
+    let mut scales = vec![1.0; net.edges().len()];
+    for _ in 0..PASSES {
+        let split = program::split(&forces.map(|_, j, v| v * scales[j]))?;
+        let found: Vec<f64> = split.solution.iter().zip(&scales).map(|(x, s)| x * s).collect();
+        if lift.is_disc() && found.iter().all(|f| *f > 0.0) {
+            let weights = net.weights_of(&found);
+            let exact = || projected(&net.equations(), projected(&net.equations(), weights.clone())?);
+            if let Some(heights) = lift.rounded(&weights, net).or_else(|| lift.rounded(&exact()?, net)) {
+                return Some(Certificate::Heights(heights));
+            }
         }
-        let weights = net.weights_of(&split.solution);
-        let exact = || projected(&net.equations(), projected(&net.equations(), weights.clone())?);
-        let heights = lift.rounded(&weights, net).or_else(|| lift.rounded(&exact()?, net));
-        return heights.map(Certificate::Heights);
+        if split.carried.iter().all(|c| *c) {
+            if !lift.is_disc() {
+                // Weights off a disc obey equations, which rounding breaks.
+                return None;
+            }
+        } else if let Some(motion) = net.rounded_motion(&split) {
+            return Some(Certificate::Motion(motion));
+        }
+        for (scale, x) in scales.iter_mut().zip(&split.solution) {
+            *scale *= x.max(1.0);
+        }
     }
-    net.rounded_motion(&split).map(Certificate::Motion)
+    None
 }
+
+/// Where forces are of many magnitudes, as in deeply nested triangles, the solver sees only the largest. The next pass counts each in
+/// units of what the one before has found.
+const PASSES: usize = 3;
 
 /// Weights moved onto the equations, each in proportion to its size: `ω − W Aᵀ (A W Aᵀ)⁻¹ A ω` with `W = diag(ω²)`. `None` where that
 /// cannot be computed.
