@@ -65,13 +65,11 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use std::cmp::Ordering;
-
-use super::shape::{Shape, Triangles, with_sign};
+use super::shape::{Shape, Triangles};
 use super::stiffness::EdgeWeights;
 use super::{BuildError, Fact, Laplacian, Promise, When, mass, on_triangles, stiffness};
 use crate::domain::intrinsic::{IntrinsicError, IntrinsicTriangulation};
-use crate::domain::{Domain, delaunay};
+use crate::domain::{Domain, cotangent};
 use crate::operator::{Operator, Provenance};
 use crate::parameter::Settings;
 
@@ -173,19 +171,21 @@ fn shape(intrinsic: &IntrinsicTriangulation, face: usize) -> Shape<f64> {
 /// The ends and the weight of an intrinsic edge, its sign exact where both triangles are straight.
 fn edge_weights(intrinsic: &IntrinsicTriangulation, shapes: &[Shape<f64>], edge: usize) -> Option<EdgeWeights<f64>> {
     let ends = intrinsic.ends(edge)?;
-    let (mut weight, mut apexes, mut straight) = (0.0, Vec::with_capacity(2), true);
+    let (mut cotangents, mut apexes, mut straight) = (Vec::with_capacity(2), Vec::with_capacity(2), true);
     for h in intrinsic.sides(edge) {
         let face = intrinsic.face(h);
         let ring = intrinsic.half_edges(face);
         let apex = (0..3).find(|&k| ring[(k + 1) % 3] == h)?;
-        weight += 0.5 * shapes[face].cotangents[apex];
-        apexes.push(intrinsic.surface().positions()[intrinsic.corners(face)[apex]]);
+        cotangents.push(shapes[face].cotangents[apex]);
+        apexes.push(intrinsic.surface().point(intrinsic.corners(face)[apex]));
         straight &= intrinsic.is_straight(face);
     }
-    if straight {
-        let [p, q] = ends.map(|v| intrinsic.surface().positions()[v]);
-        weight = with_sign(weight, delaunay::cotangent_sum_sign(p, q, &apexes).unwrap_or(Ordering::Equal));
-    }
+    let weight = if straight {
+        let [p, q] = ends.map(|v| intrinsic.surface().point(v));
+        cotangent::half_sum(&cotangents, || apexes.into_iter().map(move |apex| [apex, p, q]))
+    } else {
+        cotangents.iter().map(|cot| 0.5 * cot).sum()
+    };
     Some((ends, [weight, weight]))
 }
 
