@@ -65,13 +65,11 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use std::cmp::Ordering;
-
-use super::shape::{Shape, Triangles, with_sign};
+use super::shape::{Shape, Triangles};
 use super::stiffness::EdgeWeights;
 use super::{BuildError, Fact, Laplacian, Promise, When, mass, on_triangles, stiffness};
 use crate::domain::intrinsic::{IntrinsicError, IntrinsicTriangulation};
-use crate::domain::{Domain, delaunay};
+use crate::domain::{Domain, cotangent, delaunay};
 use crate::linalg::{Csr, parallel};
 use crate::operator::{Operator, Provenance};
 use crate::parameter::Settings;
@@ -197,16 +195,18 @@ fn shape(intrinsic: &IntrinsicTriangulation, triangles: &Triangles, face: usize)
 /// opposite each half-edge.
 fn edge_weights(intrinsic: &IntrinsicTriangulation, opposite: &[f64], edge: usize) -> Option<EdgeWeights<f64>> {
     let ends = intrinsic.ends(edge)?;
-    let cotangents = intrinsic.sides(edge).map(|h| opposite[h]);
-    let mut weight = cotangents.clone().fold(0.0, |sum, cotangent| sum + 0.5 * cotangent);
-    if intrinsic.sides(edge).all(|h| intrinsic.is_straight(intrinsic.face(h))) {
-        let exact = || {
-            let at = |v: usize| intrinsic.surface().positions()[v];
-            let apexes: Vec<_> = intrinsic.sides(edge).map(|h| at(intrinsic.apex(h))).collect();
-            delaunay::cotangent_sum_sign(at(ends[0]), at(ends[1]), &apexes).unwrap_or(Ordering::Equal)
-        };
-        weight = with_sign(weight, delaunay::clear_sign(cotangents).unwrap_or_else(exact));
+    let (mut cotangents, mut count) = ([0.0; 2], 0);
+    for h in intrinsic.sides(edge).take(2) {
+        cotangents[count] = opposite[h];
+        count += 1;
     }
+    let weight = if intrinsic.sides(edge).all(|h| intrinsic.is_straight(intrinsic.face(h))) {
+        let at = |v: usize| intrinsic.surface().point(v);
+        let [p, q] = ends.map(at);
+        cotangent::half_sum(&cotangents[..count], || intrinsic.sides(edge).map(move |h| [at(intrinsic.apex(h)), p, q]))
+    } else {
+        cotangents.iter().map(|cot| 0.5 * cot).sum()
+    };
     Some((ends, [weight, weight]))
 }
 

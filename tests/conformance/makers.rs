@@ -86,7 +86,7 @@ fn position(domain: &Domain, vertex: usize) -> [f64; 3] {
 
 /// The cotangent Laplacian with one defect each: what no entry of the catalogue gets wrong.
 pub fn defective() -> Vec<Maker> {
-    let defects: [(&str, Defect); 10] = [
+    let defects: [(&str, Defect); 11] = [
         ("an entry that is not a number", |_, o| match o.size() {
             0 => o,
             _ => with_entries(o, &[(0, 0, f64::NAN)]),
@@ -118,6 +118,10 @@ pub fn defective() -> Vec<Maker> {
         ("weights that depend on the number of vertices", |_, o| {
             let n = o.size() as f64;
             scaled(&o, |_, _| n)
+        }),
+        ("weights in single precision", |_, o| {
+            let single = o.stiffness().map(|_, _, v| f64::from(*v as f32));
+            replaced(&o, single)
         }),
         ("one vertex that is heavier than its star", |_, o| {
             let mut mass = o.mass().unwrap().diagonal();

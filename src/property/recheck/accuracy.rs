@@ -28,8 +28,8 @@ fn weight(corners: &[[[f64; 3]; 3]]) -> Option<Weight> {
     let (mut value, mut size) = (Rational::zero(), Rational::zero());
     for &corner in corners {
         let cot = cotangent(corner)? * Rational::half();
-        size = size + cot.magnitude();
-        value = value + cot;
+        size += cot.magnitude();
+        value += cot;
     }
     Some(Weight { value, size })
 }
