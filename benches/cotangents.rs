@@ -65,11 +65,16 @@ fn triangles(c: &mut Criterion) {
 }
 
 fn half_sums(c: &mut Criterion) {
-    let kite = |h: f64| [[0.0, -1.0, 0.0], [0.3, h, 0.1]].map(|a| [Vec3::from(a), Vec3::x(), -Vec3::x()]);
+    // (0, y) sees the edge from (1, 0) to (−1, 0) under an angle with the cotangent (y² − 1) / 2|y|.
+    let kite = |low: f64, high: f64| [-low, high].map(|y| [Vec3::y() * y, Vec3::x(), -Vec3::x()]);
     let mut group = c.benchmark_group("half-sum of two cotangents");
-    for (name, corners) in
-        [("of one sign", kite(2.0)), ("cancelling", kite(0.9)), ("in the last place", kite(0.948683298050514))]
-    {
+    let last = 2.0 + 4.0 * f64::EPSILON;
+    for (name, corners) in [
+        ("of one sign", kite(2.0, 3.0)),
+        ("cancelling to a twentieth", kite(0.5, 1.9)),
+        ("cancelling to the last place", kite(0.5, last)),
+        ("cancelling to zero", kite(0.5, 2.0)),
+    ] {
         let cotangents = corners.map(|c| cotangent::of_triangle(c).values[0]);
         group.bench_function(name, |b| {
             b.iter(|| cotangent::half_sum(black_box(&cotangents), || black_box(corners).into_iter()));
