@@ -158,7 +158,7 @@ mod tests {
             state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
             (state >> 33) as usize
         };
-        let weight = |k: usize| if k % 7 == 0 { 0.0 } else { k as f64 / 1e9 - 1.0 };
+        let weight = |k: usize| if k.is_multiple_of(7) { 0.0 } else { k as f64 / 1e9 - 1.0 };
         (0..count).map(|_| ([next() % n, next() % n], [weight(next()), weight(next())])).collect()
     }
 

@@ -77,7 +77,7 @@ pub(crate) fn renumbered(domain: &Domain, place: &[usize]) -> Result<Domain, Str
     let list = |corners: &[usize]| corners.iter().map(|&v| place[v]).collect::<Vec<_>>();
     let made = match domain {
         Domain::Surface(s) => {
-            Surface::new(permuted(s.positions(), place), s.faces().iter().map(|f| list(f)).collect()).map(Domain::from)
+            Surface::new(permuted(s.positions(), place), s.faces().iter().map(list).collect()).map(Domain::from)
         }
         Domain::Volume(v) => {
             let tetrahedra = v.tetrahedra().iter().map(|t| t.map(|v| place[v])).collect();
