@@ -85,7 +85,7 @@ fn given(operator: &Operator) -> Operator {
 }
 
 fn verdicts(c: &mut Criterion) {
-    let plane = domain("perturbed-grid:n=150,seed=1");
+    let plane = domain("perturbed-grid:nx=150,ny=150,displacement=0.2,seed=1");
     for (name, domain) in [("a sphere", sphere(5)), ("a planar grid", plane)] {
         let operator = given(&build("cotan", &domain));
         let mut group = c.benchmark_group(format!("verdicts on {name} of {} vertices", domain.vertex_count()));

@@ -69,7 +69,7 @@ fn as_given(operator: &Operator) -> Outcome<Operator> {
 enum Task {
     Build { id: &'static str, domain: Domain },
     FromFaces { id: &'static str, positions: Vec<[f64; 3]>, faces: Vec<[usize; 3]> },
-    Verdicts { domain: Domain, operator: Operator },
+    Verdicts { domain: Domain, operator: Box<Operator> },
 }
 
 impl Task {
@@ -81,7 +81,7 @@ impl Task {
             "intrinsic+topology" => ("intrinsic-delaunay", true),
             "verdicts" => {
                 let operator = as_given(&build("cotan", &domain)?)?;
-                return Ok(Task::Verdicts { domain, operator });
+                return Ok(Task::Verdicts { domain, operator: Box::new(operator) });
             }
             _ => return Err(format!("no task {name:?}; see the head of this file").into()),
         };
