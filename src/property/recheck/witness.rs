@@ -5,7 +5,9 @@ use std::collections::BTreeMap;
 
 use super::excerpt::{Material, Rows};
 use super::terms::{Terms, U};
-use super::{Answer, Rechecked, Refusal, check_threshold, dirichlet, energy, equilibrium, mass, moment, relevance, weight};
+use super::{
+    Answer, Rechecked, Refusal, check_threshold, dirichlet, energy, equilibrium, mass, moment, relevance, weight,
+};
 use crate::property::evidence::{SparseVector, Statement};
 use crate::scalar::Scalar;
 
