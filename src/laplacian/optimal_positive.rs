@@ -37,7 +37,8 @@
 //! # Cost and accuracy
 //! A linear program: some twenty sparse factorisations, milliseconds for a hundred edges. The smallest weight is within 1e-9 of the
 //! optimum; the equations hold to rounding, since the weights are projected onto them last. That positive weights exist is
-//! decided exactly, by a lift or by the exact simplex method.
+//! decided exactly, by a lift or, on up to twelve interior vertices, by the exact simplex method; where angles are so small that
+//! rounding decides nothing on a larger mesh, the mesh is refused for that.
 //!
 //! # References
 //! \[wardetzky2007\] (that none need exist, and when they do).
@@ -57,7 +58,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use super::equilibrium::{self, Certificate, Lift, Net, decide};
+use super::equilibrium::{self, Certificate, Lift, Net, decide_quickly};
 use super::shape::Triangles;
 use super::{BuildError, Fact, Laplacian, Promise, mass, on_triangles, stiffness};
 use crate::domain::{Domain, Surface};
@@ -109,11 +110,11 @@ fn build(domain: &Domain, settings: &Settings) -> Result<Operator, BuildError> {
     let proposed = Program::of(surface, &net).optimum();
     let proposed = match proposed {
         Some(weights) if proves(&net, &lift, surface, &weights) => weights,
-        other => match decide(surface).map(|decision| decision.certificate) {
+        other => match decide_quickly(surface) {
             Some(certificate @ Certificate::Motion(_)) => {
                 return Err(BuildError::NoPositiveWeights { laplacian, certificate: Box::new(certificate) });
             }
-            _ => other.ok_or(BuildError::Missing {
+            shown => shown.and(other).ok_or(BuildError::Missing {
                 laplacian,
                 what: "a linear program that floating point can solve, and the angles of this mesh are too small for it",
                 remedy: "remove the smallest angles",

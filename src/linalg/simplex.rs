@@ -6,7 +6,7 @@
 //!
 //! # Guarantees
 //! Ends with one of the two, whatever the input: while the objective falls the column with the most negative reduced cost
-//! enters, during a stall the first one (Bland's rule), so that no basis comes back.
+//! enters, during a stall that lasts the first one (Bland's rule), so that it comes to an end.
 //!
 //! # Numbers
 //! The tableau is one of integers over a common denominator, the determinant of the basis, and every division is exact
@@ -34,11 +34,13 @@ pub enum Farkas {
 pub fn farkas(rows: &[Vec<Rational>], b: &[Rational]) -> Farkas {
     let columns = rows.first().map_or(0, Vec::len);
     let mut tableau = Tableau::new(rows, b, columns);
-    let mut stalled = false;
-    while let Some(column) = tableau.entering(stalled) {
+    // Bland's rule alone takes far more pivots; it is kept for stalls that last.
+    let patience = 2 * (rows.len() + columns);
+    let mut stalled = 0;
+    while let Some(column) = tableau.entering(stalled > patience) {
         // A column of negative reduced cost has a positive entry: the objective is bounded by zero.
         let Some(row) = tableau.leaving(column) else { break };
-        stalled = tableau.right(row).is_zero();
+        stalled = if tableau.right(row).is_zero() { stalled + 1 } else { 0 };
         tableau.pivot(row, column);
     }
     tableau.answer(columns)

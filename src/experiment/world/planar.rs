@@ -37,7 +37,7 @@ fn draw(case: usize, largest: usize, stream: &mut Stream) -> Option<Specimen> {
     let flipped = || source("flip", &[("count", whole(flips))]);
     let twisted = |twist: f64, ratio: f64| {
         // At twist 0 rounding decides nothing, and the exact simplex method is for few points.
-        let nested = if twist == 0.0 { 1 + n % 6 } else { (n / 3).max(2) - 1 };
+        let nested = ((n / 3).max(2) - 1).min(if twist == 0.0 { 1 + n % 6 } else { n });
         source("schonhardt", &[("twist", twist.to_string()), ("nested", whole(nested)), ("ratio", ratio.to_string())])
     };
     let side = |n: usize| whole(((n as f64).sqrt() as usize).clamp(3, 12) - 1);
