@@ -377,7 +377,9 @@ mod tests {
             };
             let cut = sum(&|a, b| inside(a) && !inside(b));
             let smaller = sum(&|a, b| inside(a) && inside(b)).min(sum(&|a, b| !inside(a) && !inside(b)));
-            best = best.min(cut / smaller);
+            if smaller > 0.0 {
+                best = best.min(cut / smaller);
+            }
         }
         let found = s.printed.unwrap();
         assert!((found.ratio.approximate() - best).abs() < 1e-15, "{} {best} {:?}", found.ratio, found.side);

@@ -46,14 +46,14 @@ pub(super) fn below(m: &Material, x: &SparseVector, side: &[usize]) -> Answer {
     let degree = |i: usize| weights[i].iter().fold(Rational::zero(), |sum, w| sum + w.clone());
     let (mut energy, mut square, mut mean, mut total) =
         (Rational::zero(), Rational::zero(), Rational::zero(), Rational::zero());
-    for i in 0..n {
-        for j in 0..i {
+    for (i, row) in weights.iter().enumerate() {
+        for (j, weight) in row.iter().enumerate().take(i) {
             let difference = at(i) - at(j);
-            energy = energy + weights[i][j].clone() * difference.clone() * difference;
+            energy += weight.clone() * difference.clone() * difference;
         }
-        square = square + degree(i) * at(i) * at(i);
-        mean = mean + degree(i) * at(i);
-        total = total + degree(i);
+        square += degree(i) * at(i) * at(i);
+        mean += degree(i) * at(i);
+        total += degree(i);
     }
     let bound = constant.clone() * constant * Rational::half() * (square - mean.clone() * mean / total);
     if (energy.clone() - bound.clone()).cmp_zero() == Ordering::Less {
@@ -68,7 +68,7 @@ fn weights(m: &Material, n: usize) -> Result<Vec<Vec<Rational>>, Refusal> {
     for (i, list) in weights.iter_mut().enumerate() {
         let mut sum = Rational::zero();
         for &(j, v) in m.rows.row(i)? {
-            sum = sum + exact(v);
+            sum += exact(v);
             if j >= n {
                 return Err(Refusal::Missing { what: "row", index: j });
             }
@@ -94,9 +94,9 @@ fn ratio(weights: &[Vec<Rational>], mask: usize) -> Option<Rational> {
     for (i, row) in weights.iter().enumerate() {
         for (j, w) in row.iter().enumerate() {
             match (inside(i), inside(j)) {
-                (true, true) => volume = volume + w.clone(),
-                (false, false) => rest = rest + w.clone(),
-                (true, false) => cut = cut + w.clone(),
+                (true, true) => volume += w.clone(),
+                (false, false) => rest += w.clone(),
+                (true, false) => cut += w.clone(),
                 (false, true) => {}
             }
         }
