@@ -117,7 +117,8 @@ pub fn statement(evidence: &Evidence) -> String {
             number(*threshold)
         ),
         Statement::BelowCheeger { x, side } => format!(
-            "the partition into {} and the rest has the smallest constant λ_C, with the volume as printed, and a vector with {}              has a Rayleigh quotient below λ_C²/2",
+            "the partition into {} and the rest has the smallest constant λ_C, with the volume as printed, and a vector with {} \
+             has a Rayleigh quotient below λ_C²/2",
             tuple(side),
             components(x)
         ),
