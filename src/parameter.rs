@@ -27,7 +27,8 @@ pub enum Range {
 }
 
 impl Range {
-    fn admits(&self, value: &str) -> bool {
+    /// Whether a value is admitted.
+    pub fn admits(&self, value: &str) -> bool {
         match self {
             Range::Choice(words) => words.contains(&value),
             Range::Number(low, high) => value.parse::<f64>().is_ok_and(|x| (*low..=*high).contains(&x)),

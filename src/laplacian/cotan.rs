@@ -140,7 +140,7 @@ fn build(domain: &Domain, settings: &Settings) -> Result<Operator, BuildError> {
 }
 
 /// `½ Σ cot` over the angles opposite an edge, with a relative error below one: its sign is exact.
-fn weight(triangles: &Triangles, edge: usize) -> f64 {
+pub(super) fn weight(triangles: &Triangles, edge: usize) -> f64 {
     let (mut cotangents, mut count) = ([0.0; 2], 0);
     for &cotangent in triangles.cotangents_opposite(edge) {
         if count < 2 {

@@ -234,6 +234,12 @@ impl Fact {
     }
 }
 
+/// The rest of an advice, for a construction that can leave degenerate triangles out.
+fn or_leave_them_out(laplacian: &str) -> &'static str {
+    let can = find(laplacian).is_some_and(|l| l.parameters.iter().any(|p| p.name == on_triangles::DEGENERATE.name));
+    if can { ", or leave them out with degenerate=skip" } else { "" }
+}
+
 /// Why a construction gave no operator. A refusal is not a verdict.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum BuildError {
@@ -263,7 +269,7 @@ pub enum BuildError {
     /// A triangle of zero area.
     #[error(
         "triangle {face} ({}, {}, {}) has zero area, where '{laplacian}' is not defined ({count} such triangles in all); \
-         remove them, or leave them out with degenerate=skip", corners[0], corners[1], corners[2]
+         remove them{}", corners[0], corners[1], corners[2], or_leave_them_out(laplacian)
     )]
     Degenerate {
         /// The entry.

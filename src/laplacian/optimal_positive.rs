@@ -99,14 +99,16 @@ pub static ENTRY: Laplacian = Laplacian {
 fn build(domain: &Domain, settings: &Settings) -> Result<Operator, BuildError> {
     let laplacian = ENTRY.id;
     let surface = on_triangles::surface(laplacian, domain)?;
-    let triangles = Triangles::new(laplacian, surface, false)?.with_lengths(laplacian)?;
-    let (Some(net), Some(lift)) = (Net::of(surface), Lift::of(surface)) else {
-        return Err(BuildError::Missing {
-            laplacian,
-            what: "a triangulation that lies unfolded in a coordinate plane, with at most two triangles at an edge",
-            remedy: "use intrinsic-delaunay on a surface in space",
-        });
+    let elsewhere = BuildError::Missing {
+        laplacian,
+        what: "a triangulation that lies unfolded in a coordinate plane, with at most two triangles at an edge",
+        remedy: "use intrinsic-delaunay on a surface in space",
     };
+    if surface.plane().is_none() {
+        return Err(elsewhere);
+    }
+    let triangles = Triangles::new(laplacian, surface, false)?.with_lengths(laplacian)?;
+    let (Some(net), Some(lift)) = (Net::of(surface), Lift::of(surface)) else { return Err(elsewhere) };
     let proposed = Program::of(surface, &net).optimum();
     let proposed = match proposed {
         Some(weights) if proves(&net, &lift, surface, &weights) => weights,

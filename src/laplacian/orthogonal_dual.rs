@@ -72,7 +72,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use super::shape::{Triangles, with_sign};
+use super::shape::Triangles;
 use super::{BuildError, Fact, Laplacian, Promise, When, cotan, on_triangles, stiffness};
 use crate::domain::{Domain, Surface};
 use crate::linalg::Csr;
@@ -150,8 +150,7 @@ fn build(domain: &Domain, settings: &Settings) -> Result<Operator, BuildError> {
     let weights = weights(surface, settings);
     let zero = settings.get("weights") == "zero";
     let operator = on_triangles::operator(ENTRY.id, domain, settings, |triangles, edge| {
-        let weight = weight(triangles, edge, &weights);
-        let weight = if zero { with_sign(weight, cotan::sign(triangles, edge)) } else { weight };
+        let weight = if zero { cotan::weight(triangles, edge) } else { weight(triangles, edge, &weights) };
         [weight, weight]
     })?;
     Ok(if zero { operator.with_exact_signs() } else { operator })

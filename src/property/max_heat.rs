@@ -45,7 +45,8 @@ const TIMES: [f64; 3] = [1.0 / 16.0, 1.0, 16.0];
 pub static ENTRY: Property = Property {
     id: "MAX-heat",
     name: "maximum principle of the heat equation",
-    statement: "(M + tL)⁻¹ M ≥ 0 entrywise for t = h²/16, h², 16 h², h² the mean squared edge length",
+    statement: "(M + tL)⁻¹ M ≥ 0 entrywise for t = h²/16, h², 16 h², h² the mean squared edge length (1 where the mass counts vertices \
+                or edges)",
     sources: &["thomee-wahlbin2008"],
     question: Question::Operator(decide),
 };

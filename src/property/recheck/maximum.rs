@@ -5,7 +5,7 @@ use super::scan;
 use super::terms::{Terms, U};
 use super::{Answer, Rechecked, Refusal, place, solutions};
 use crate::domain::Domain;
-use crate::operator::{Operator, Signs};
+use crate::operator::{Mass, Operator, Signs};
 
 /// MAX-global, MAX-heat: no negative weight, row sums not negative, and chains of positive weights to the set.
 ///
@@ -44,9 +44,8 @@ pub(super) fn sign_pattern(property: &str, domain: &Domain, operator: &Operator,
 
 /// `M + tL` is an M-matrix for each t of the property: a row that sums to less than zero is outweighed by its mass.
 fn heat(domain: &Domain, operator: &Operator) -> Answer {
-    let masses = masses(operator)?;
-    let l = operator.stiffness();
-    let times = solutions::times(domain, l);
+    let (mass, masses) = masses(operator)?;
+    let times = solutions::times(domain, operator.stiffness(), mass);
     let all: Vec<usize> = (0..operator.size()).collect();
     let exact = check_rows(domain, operator, &all, |i, sum| {
         // The product, the sum and the row's sum round less than eight times in all.
@@ -91,8 +90,8 @@ fn check_rows(
     Ok(exact)
 }
 
-/// The diagonal of a lumped positive mass.
-fn masses(operator: &Operator) -> Result<Vec<f64>, Refusal> {
+/// A lumped positive mass, and its diagonal.
+fn masses(operator: &Operator) -> Result<(&Mass, Vec<f64>), Refusal> {
     let Some(mass) = operator.mass() else {
         return Err(Refusal::untrue("there is a mass matrix", "there is none"));
     };
@@ -102,7 +101,7 @@ fn masses(operator: &Operator) -> Result<Vec<f64>, Refusal> {
     let diagonal = mass.diagonal();
     match diagonal.iter().position(|m| m.is_nan() || *m <= 0.0) {
         Some(i) => Err(Refusal::untrue("the mass is positive", format!("M_{i},{i} = {}", diagonal[i]))),
-        None => Ok(diagonal),
+        None => Ok((mass, diagonal)),
     }
 }
 
@@ -157,9 +156,9 @@ fn check_reached(arrows: &[Vec<usize>], seed: &[bool], of_interest: impl Fn(usiz
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::domain::Graph;
+    use crate::domain::{Graph, Surface};
     use crate::linalg::Csr;
-    use crate::operator::{Mass, MassKind, Provenance};
+    use crate::operator::{MassKind, Provenance};
 
     #[test]
     fn a_negative_row_sum_is_outweighed_by_a_mass_above_sixteen_times_it() {
@@ -176,5 +175,21 @@ mod tests {
             assert!(matches!(refusal, Refusal::Untrue { .. }), "mass {mass}: {refusal}");
         }
         assert!(sign_pattern("MAX-global", &domain, &operator(8.5), 0).is_err());
+    }
+
+    #[test]
+    fn a_mass_that_counts_has_its_time_in_1_and_one_of_areas_in_squared_lengths() {
+        // Row sums of −½; edges of lengths 1, 1 and √2 make h² = 4/3, and masses of 10 exceed 16·½ but not 16·4/3·½.
+        let plane = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        let domain = Domain::from(Surface::triangles(plane, &[[0, 1, 2]]).unwrap());
+        let entries: Vec<_> = (0..9).map(|k| (k / 3, k % 3, if k / 3 == k % 3 { 1.5 } else { -1.0 })).collect();
+        let operator = |kind| {
+            let plain = Operator::new(Csr::from_triplets(3, 3, &entries), Provenance::default()).unwrap();
+            plain.with_mass(Mass::lumped(kind, &[10.0; 3])).unwrap()
+        };
+        for kind in [MassKind::Unit, MassKind::Degree] {
+            assert_eq!(sign_pattern("MAX-heat", &domain, &operator(kind), 0), Ok(Rechecked::Exact));
+        }
+        assert!(sign_pattern("MAX-heat", &domain, &operator(MassKind::Given), 0).is_err());
     }
 }

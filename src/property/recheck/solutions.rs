@@ -6,7 +6,7 @@ use super::witness::NEARLY_ZERO;
 use super::{Answer, Rechecked, Refusal, place, scan};
 use crate::domain::Domain;
 use crate::linalg::Csr;
-use crate::operator::Operator;
+use crate::operator::{Mass, MassKind, Operator};
 
 /// More multiplications than this take longer than a recheck may.
 const MOST_WORK: usize = 2_000_000_000;
@@ -93,7 +93,7 @@ fn heat(domain: &Domain, operator: &Operator, stated: Stated) -> Answer {
     let columns: Vec<Vec<(usize, f64)>> =
         (0..m.rows()).map(|j| transpose.row(j).map(|(i, v)| (i, *v)).collect()).collect();
     let (mut smallest, mut error) = (Vec::new(), 0.0_f64);
-    for t in times(domain, l) {
+    for t in times(domain, l, mass) {
         match range(&step(m, l, t), &columns) {
             Err(why) => return Ok(Rechecked::Open(why)),
             Ok(range) => {
@@ -116,9 +116,12 @@ fn step(m: &Csr, l: &Csr, t: f64) -> System {
     System { rows: (0..sum.rows()).map(row).collect() }
 }
 
-/// The time steps of MAX-heat: `h²/16, h², 16h²`, h² the mean squared edge length (1 where there are no positions).
-pub(super) fn times(domain: &Domain, l: &Csr) -> [f64; 3] {
-    [1.0 / 16.0, 1.0, 16.0].map(|factor| factor * squared_edge_length(domain, l))
+/// The time steps of MAX-heat: `h²/16, h², 16h²`, h² the mean squared edge length; 1 where there are no positions, and where the
+/// mass counts vertices or edges.
+pub(super) fn times(domain: &Domain, l: &Csr, mass: &Mass) -> [f64; 3] {
+    let counts = [MassKind::Unit, MassKind::Degree].contains(&mass.kind());
+    let unit = if counts { 1.0 } else { squared_edge_length(domain, l) };
+    [1.0 / 16.0, 1.0, 16.0].map(|factor| factor * unit)
 }
 
 fn squared_edge_length(domain: &Domain, l: &Csr) -> f64 {
