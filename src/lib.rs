@@ -143,6 +143,7 @@ pub mod exchange;
 pub mod experiment;
 pub mod external;
 pub mod fault;
+pub mod figure;
 pub mod generate;
 pub mod laplacian;
 pub mod linalg;

@@ -13,6 +13,7 @@ fn allowed() -> BTreeMap<&'static str, Vec<&'static str>> {
         ("scalar", vec![]),
         ("stream", vec![]),
         ("parameter", vec![]),
+        ("figure", vec![]),
         ("linalg", vec!["scalar"]),
         ("domain", vec!["scalar"]),
         ("operator", vec!["linalg"]),
@@ -23,10 +24,10 @@ fn allowed() -> BTreeMap<&'static str, Vec<&'static str>> {
         ("external", with(&["exchange", "property"])),
         ("fault", vec!["scalar", "stream", "linalg", "domain", "operator"]),
         ("campaign", vec!["stream", "domain", "operator", "property", "external", "record", "suite", "fault"]),
-        ("experiment", with(&["generate", "laplacian", "property"])),
-        ("record", vec!["domain", "property"]),
+        ("experiment", with(&["figure", "generate", "laplacian", "property"])),
+        ("record", vec!["figure", "domain", "property"]),
         ("suite", with(&["generate", "laplacian", "property", "exchange", "external", "experiment", "record"])),
-        ("report", vec!["record", "property"]),
+        ("report", vec!["figure", "record", "property"]),
         (
             "cli",
             with(&[

@@ -307,6 +307,25 @@ fn kind(statement: &Statement) -> &'static str {
 }
 
 #[test]
+fn the_figures_of_a_claim_stand_beside_it_and_its_charts_are_files() {
+    let mut record = sample::rich();
+    let page = |record: &Record| report::html(record, &report::Options::default(), &[]).unwrap();
+    let text = page(&record);
+    for title in ["The first eigenvalue under refinement", "Numbers that fall", "A cycle of four"] {
+        assert!(text.contains(&format!("<figcaption>{title}.</figcaption>")), "{title}");
+    }
+    let files = report::render(&record, &report::Options::default()).unwrap();
+    let id = record.claims[0].id.clone();
+    for number in [1, 2] {
+        let path = format!("charts/{id}-{number}.svg");
+        let svg = files.iter().find(|f| f.path == path).unwrap_or_else(|| panic!("{path} is missing"));
+        balanced(std::str::from_utf8(&svg.bytes).unwrap());
+    }
+    record.claims.iter_mut().flat_map(|c| &mut c.tests).for_each(|t| t.figures.clear());
+    assert!(!page(&record).contains("A cycle of four"));
+}
+
+#[test]
 fn every_statement_about_a_triangulation_has_its_sentence_and_its_pictures() {
     let marks = [("Lift", "dual"), ("Equilibrium", "f5"), ("Motion", "arrow"), ("NoLift", "f5")];
     let mut sentences = BTreeSet::new();

@@ -32,6 +32,7 @@ catalogue! {
     flips_on_tori,
 }
 
+use crate::figure::Figure;
 use crate::property::{Evidence, Level};
 
 /// A catalogue entry.
@@ -109,4 +110,6 @@ pub struct Finding {
     pub finding: String,
     /// Witnesses with their own excerpts of matrix and mesh.
     pub evidence: Vec<Evidence>,
+    /// What there is to look at.
+    pub figures: Vec<Figure>,
 }

@@ -93,7 +93,8 @@ fn finding(
     finding: String,
     evidence: Vec<Evidence>,
 ) -> Finding {
-    Finding { part, question: question.into(), agrees, decided, open: 0, level: Level::Exact, finding, evidence }
+    let (question, level, figures) = (question.into(), Level::Exact, Vec::new());
+    Finding { part, question, agrees, decided, open: 0, level, finding, evidence, figures }
 }
 
 #[cfg(test)]

@@ -224,6 +224,9 @@ pub struct TestLine {
     /// Witnesses and certificates of the deciding cases, each with its own excerpt.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub evidence: Vec<crate::property::Evidence>,
+    /// What there is to look at.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub figures: Vec<crate::figure::Figure>,
 }
 
 /// The smallest failing case of a (laplacian, property), with its mesh.

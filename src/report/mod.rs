@@ -9,6 +9,7 @@ mod atlas;
 pub mod csv;
 mod download;
 mod drawing;
+mod figure;
 mod highlight;
 mod html;
 mod junit;
@@ -28,10 +29,11 @@ mod view;
 use std::collections::BTreeMap;
 
 pub use atlas::smallest;
+pub use figure::Drawn;
 pub use html::html;
 pub use junit::junit;
 pub use markdown::markdown;
-pub use reciprocal::{Figure, figures};
+pub use reciprocal::figures;
 pub use sentence::{sentence, statement};
 
 use crate::record::{Cell, Exhibit, Record};
@@ -84,7 +86,7 @@ pub enum RenderError {
 /// What a writer of tables or charts refuses; nothing that a record from the reader brings about.
 pub fn render(record: &Record, options: &Options) -> Result<Vec<File>, RenderError> {
     let mut files = tables(record)?;
-    for chart in plot::charts(record) {
+    for chart in plot::charts(record).into_iter().chain(figure::charts(record)) {
         files.push(File { path: format!("charts/{}.svg", chart.id), bytes: chart.svg()?.into_bytes() });
     }
     files.push(File { path: "summary.md".into(), bytes: markdown(record).into_bytes() });

@@ -3,25 +3,18 @@
 use std::collections::BTreeMap;
 
 use super::drawing::Point;
+use super::figure::Drawn;
 use super::highlight::Highlight;
 use super::picture::{Picture, picture};
 use super::svg;
 use crate::record::{Evidence, Exhibit, Statement};
 
-/// A picture as SVG and what it shows.
-pub struct Figure {
-    /// The SVG element.
-    pub svg: String,
-    /// What it shows.
-    pub caption: &'static str,
-}
-
 /// The pictures of a statement about a triangulation that carries its whole mesh; none of any other.
-pub fn figures(evidence: &Evidence) -> Vec<Figure> {
+pub fn figures(evidence: &Evidence) -> Vec<Drawn> {
     let exhibit = mesh(evidence);
     let highlight = Highlight::of(evidence);
     let draw = |picture: Option<Picture>, caption: &'static str| {
-        picture.map(|p| Figure { svg: svg::svg(&p.drawing, caption), caption })
+        picture.map(|p| Drawn { svg: svg::svg(&p.drawing, caption), caption: caption.into() })
     };
     let plain = |caption| draw(picture(&exhibit, &highlight), caption);
     let found = match &evidence.statement {

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use lapjury::domain::{Domain, Graph, Surface};
+use lapjury::figure::{Axis, Chart, Figure, Mark, Series, Sketch};
 use lapjury::property::evidence::{Corner, Fault, Flip, Hypothesis, Row, Which};
 use lapjury::property::{Evidence, Excerpt, Level, Statement, Tally, Verdict};
 use lapjury::record::{
@@ -416,6 +417,26 @@ fn suits(statement: &Statement, place: &Place) -> bool {
     }
 }
 
+/// A chart of each mark over logarithms, one over plain numbers, and a sketch.
+fn figures() -> Vec<Figure> {
+    let power = |p: i32| (1..6).map(move |k| [0.5_f64.powi(k), 0.1 * 0.5_f64.powi(p * k)]);
+    let series = vec![
+        Series::new("cotan", Mark::Both, power(2)),
+        Series::new("graph", Mark::Dots, power(0)),
+        Series::new("h²", Mark::Reference, power(2)),
+    ];
+    let (x, y) = (Axis::logarithmic("h, mean edge length"), Axis::logarithmic("relative error of λ₁"));
+    let chart = Chart { title: "The first eigenvalue under refinement".into(), x, y, series };
+    let series = vec![Series::new("λ", Mark::Line, (0..9).map(|k| [f64::from(k), 1.0 - 0.1 * f64::from(k)]))];
+    let plain = Chart { title: "Numbers that fall".into(), x: Axis::linear("k"), y: Axis::linear("λ"), series };
+    let sketch = Sketch {
+        values: vec![1.0, -1.0, 0.5, 0.0],
+        marked: vec![[0, 2]],
+        ..Sketch::of_graph("A cycle of four", 4, &[[0, 1], [1, 2], [2, 3], [0, 3]])
+    };
+    vec![Figure::Chart(chart), Figure::Chart(plain), Figure::Sketch(sketch)]
+}
+
 pub fn claims() -> Vec<ClaimLine> {
     let test = |form: &str, agrees, finding: &str| TestLine {
         question:
@@ -429,6 +450,7 @@ pub fn claims() -> Vec<ClaimLine> {
         finding: finding.into(),
         replay: Some("lapjury verify c33".into()),
         evidence: Vec::new(),
+        figures: figures(),
     };
     let claim = |id: &str, statement: &str, outcome, expected, tests| ClaimLine {
         id: id.into(),

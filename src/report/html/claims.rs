@@ -4,15 +4,17 @@ use std::collections::BTreeSet;
 
 use maud::{Markup, PreEscaped, html};
 
+use super::super::figure::{Drawn, drawn};
 use super::super::figures;
 use super::super::number::count;
+use super::super::plot::PlotError;
 use super::{Page, replay, scroll};
 use crate::record::{ClaimLine, ClaimOutcome, TestLine};
 
 /// The section.
-pub(super) fn section(page: &Page) -> Markup {
+pub(super) fn section(page: &Page) -> Result<Markup, PlotError> {
     let claims = &page.record.claims;
-    html! {
+    Ok(html! {
         section #claims {
             h2 { "Claims" }
             @if claims.is_empty() { p { "The suite tests no claim of the literature." } }
@@ -32,15 +34,15 @@ pub(super) fn section(page: &Page) -> Markup {
                         }
                     }
                 }))
-                @for c in claims { (claim(page, c)) }
+                @for c in claims { (claim(page, c)?) }
             }
         }
-    }
+    })
 }
 
-fn claim(page: &Page, c: &ClaimLine) -> Markup {
+fn claim(page: &Page, c: &ClaimLine) -> Result<Markup, PlotError> {
     let commands: BTreeSet<&String> = c.tests.iter().filter_map(|t| t.replay.as_ref()).collect();
-    html! {
+    Ok(html! {
         article.claim id=(page.anchors.claim(&c.id)) {
             h3 { a.self href={ "#" (page.anchors.claim(&c.id)) } { (c.id) } " " (outcome(c)) }
             blockquote { p { (c.statement) } }
@@ -57,22 +59,22 @@ fn claim(page: &Page, c: &ClaimLine) -> Markup {
                         tbody { @for t in &c.tests { (test(t)) } }
                     }
                 }))
-                (pictures(c))
+                (pictures(c)?)
                 @for command in commands { (replay(command)) }
             }
         }
-    }
+    })
 }
 
 /// The pictures of what the tests of a claim show.
-fn pictures(c: &ClaimLine) -> Markup {
-    html! {
-        @for evidence in c.tests.iter().flat_map(|t| &t.evidence) {
-            @for drawn in figures(evidence) {
-                figure { (PreEscaped(drawn.svg)) figcaption { (drawn.caption) "." } }
-            }
+fn pictures(c: &ClaimLine) -> Result<Markup, PlotError> {
+    let of_evidence = c.tests.iter().flat_map(|t| &t.evidence).flat_map(figures);
+    let all: Vec<Drawn> = of_evidence.chain(drawn(c)?).collect();
+    Ok(html! {
+        @for picture in all {
+            figure { div.scroll { (PreEscaped(picture.svg)) } figcaption { (picture.caption) "." } }
         }
-    }
+    })
 }
 
 fn test(t: &TestLine) -> Markup {

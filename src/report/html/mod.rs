@@ -59,7 +59,7 @@ pub fn html(record: &Record, options: &Options, files: &[File]) -> Result<String
     let main = html! {
         (matrix::section(&page))
         (tables::unexpected(&page))
-        (claims::section(&page))
+        (claims::section(&page)?)
         (atlas::section(&page))
         (exhibits::section(&page))
         (evidence::section(&page))

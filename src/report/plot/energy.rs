@@ -5,13 +5,13 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::HPos;
 
 use super::super::number::{count, number};
-use super::{BLUE, Chart, Data, FINE, GRID, INK, ORANGE, PlotError, grid, ink, px};
+use super::{COLOURS, Chart, Data, FINE, GRID, INK, PlotError, grid, ink, px};
 use crate::record::{Record, Statement};
 
 const WIDTH: u32 = 760;
 const HEIGHT: u32 = 360;
-/// The colours of the lines; further certificates are left out.
-const COLOURS: [RGBColor; 4] = [BLUE, ORANGE, RGBColor(0, 158, 115), RGBColor(190, 96, 160)];
+/// Certificates beyond as many are left out.
+const MOST: usize = 4;
 
 /// The logarithm of energy over energy on the Delaunay triangulation, after each flip.
 #[derive(Clone, Debug)]
@@ -30,11 +30,11 @@ pub(super) fn chart(record: &Record) -> Option<Chart> {
             }
             _ => None,
         })
-        .take(COLOURS.len())
+        .take(MOST)
         .collect();
     (!lines.is_empty()).then(|| Chart {
-        id: "energy",
-        title: "Dirichlet energy on the way to Delaunay",
+        id: "energy".into(),
+        title: "Dirichlet energy on the way to Delaunay".into(),
         caption: "The Dirichlet energy ½ uᵀLu of a function of random values after each flip, over that on the Delaunay \
                   triangulation, for the certificates of Rippa's theorem in this record; a step for each flip, the scale is \
                   logarithmic. Every flip takes ½ κ (w·u)² ≥ 0 away, so no line ever rises."

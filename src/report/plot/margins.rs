@@ -37,8 +37,8 @@ pub(super) fn chart(record: &Record) -> Option<Chart> {
     }
     let total: usize = rows.iter().flat_map(|r| r.1).sum();
     (total > 0).then(|| Chart {
-        id: "margins",
-        title: "How far from the threshold holding verdicts are",
+        id: "margins".into(),
+        title: "How far from the threshold holding verdicts are".into(),
         caption: format!(
             "The margin is the residual over its threshold: left of 1 rounding explains it. {} holding verdicts with a \
              margin; the stronger the colour of a cell, the larger its share of the row. The first cell also has every \

@@ -6,6 +6,7 @@
 mod energy;
 mod margins;
 mod negative_weights;
+mod series;
 mod time;
 
 use std::sync::Once;
@@ -33,9 +34,9 @@ impl PlotError {
 #[derive(Clone, Debug)]
 pub struct Chart {
     /// A name for files and anchors.
-    pub id: &'static str,
+    pub id: String,
     /// What it shows, in a few words.
-    pub title: &'static str,
+    pub title: String,
     /// How to read it.
     pub caption: String,
     width: u32,
@@ -49,15 +50,21 @@ enum Data {
     Energy(energy::Energy),
     Margins(margins::Margins),
     NegativeWeights(negative_weights::NegativeWeights),
+    Series(series::Plot),
     Time(time::Time),
 }
 
-/// Every chart that the record has data for.
+/// Every chart that the record has data for, apart from those of its claims.
 pub fn charts(record: &Record) -> Vec<Chart> {
     [margins::chart(record), negative_weights::chart(record), energy::chart(record), time::chart(record)]
         .into_iter()
         .flatten()
         .collect()
+}
+
+/// The chart of a finding; `None` where nothing of it can be drawn.
+pub fn of_finding(id: String, chart: &crate::figure::Chart) -> Option<Chart> {
+    series::chart(id, chart)
 }
 
 /// How much larger than shown a chart is drawn.
@@ -92,7 +99,7 @@ impl Chart {
              viewBox=\"0 0 {} {}\"><title>{}</title>",
             w * FINE,
             h * FINE,
-            super::svg::escape(self.title)
+            super::svg::escape(&self.title)
         );
         Ok(head + &body)
     }
@@ -117,6 +124,7 @@ impl Chart {
             Data::Energy(data) => data.draw(&area)?,
             Data::Margins(data) => data.draw(&area)?,
             Data::NegativeWeights(data) => data.draw(&area)?,
+            Data::Series(data) => data.draw(&area)?,
             Data::Time(data) => data.draw(&area)?,
         }
         area.present().map_err(PlotError::of)
@@ -132,6 +140,10 @@ const fn px(length: u32) -> u32 {
 fn ink(size: u32, horizontal: HPos) -> TextStyle<'static> {
     ("sans-serif", 1.2 * f64::from(px(size))).into_font().color(&INK).pos(Pos::new(horizontal, VPos::Center))
 }
+
+/// The colours of lines that are told apart, by everyone.
+const COLOURS: [RGBColor; 6] =
+    [BLUE, ORANGE, RGBColor(0, 158, 115), RGBColor(190, 96, 160), RGBColor(160, 120, 20), RGBColor(86, 160, 190)];
 
 /// Thin lines behind the data.
 fn grid() -> ShapeStyle {

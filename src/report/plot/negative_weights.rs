@@ -61,8 +61,8 @@ pub(super) fn chart(record: &Record) -> Option<Chart> {
     );
     let series = series.into_iter().map(|(l, points)| (l, thinned(&points, largest / RESOLUTION))).collect();
     Some(Chart {
-        id: "negative-weights",
-        title: "Negative weights and edges that are not Delaunay",
+        id: "negative-weights".into(),
+        title: "Negative weights and edges that are not Delaunay".into(),
         caption,
         width: WIDTH,
         height: HEIGHT,

@@ -29,8 +29,8 @@ pub(super) fn chart(record: &Record) -> Option<Chart> {
     }
     parts.retain(|p| p.1 > 0.0);
     (!parts.is_empty()).then(|| Chart {
-        id: "time",
-        title: "Where the time went",
+        id: "time".into(),
+        title: "Where the time went".into(),
         caption: format!(
             "Seconds summed over {} thread{}; the whole run took {}. Timings are not part of the results digest.",
             timing.threads,

@@ -174,8 +174,11 @@ mod tests {
     /// A test of a form that came out so.
     fn line(form: Form, agrees: bool, decided: usize, open: usize) -> (Form, TestLine) {
         let (question, finding) = (String::new(), String::new());
-        let (level, replay, evidence) = (Level::Exact, None, Vec::new());
-        (form, TestLine { question, form: form.name().into(), agrees, decided, open, level, finding, replay, evidence })
+        let (level, replay, evidence, figures) = (Level::Exact, None, Vec::new(), Vec::new());
+        let form_name = form.name().into();
+        let line =
+            TestLine { question, form: form_name, agrees, decided, open, level, finding, replay, evidence, figures };
+        (form, line)
     }
 
     #[test]

@@ -195,6 +195,7 @@ impl Question {
             finding,
             replay: example.map(|c| cases::replay(&c.recipe, &c.laplacian, &c.property)),
             evidence: example.and_then(|c| c.verdict.evidence()).cloned().into_iter().collect(),
+            figures: Vec::new(),
         }
     }
 }

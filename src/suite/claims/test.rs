@@ -191,6 +191,7 @@ impl Test {
             finding: finding.map_or_else(|| "the experiment gave no answer".into(), |f| f.finding.clone()),
             replay: Some(replay.into()),
             evidence: finding.map_or_else(Vec::new, |f| f.evidence.clone()),
+            figures: finding.map_or_else(Vec::new, |f| f.figures.clone()),
         }
     }
 }
