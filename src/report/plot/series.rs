@@ -77,8 +77,9 @@ impl Scale {
     /// What stands at a tick: whole powers of ten where there are enough of them.
     fn tick(&self, at: f64) -> String {
         if !self.logarithmic {
-            let step = (self.range[1] - self.range[0]) / 100.0;
-            return number((at / step).round() * step);
+            // Ticks lie at round numbers; three digits of the range take away what rounding added to them.
+            let digits = 10f64.powf(2.0 - (self.range[1] - self.range[0]).log10().floor());
+            return number((at * digits).round() / digits);
         }
         let power = at.round();
         let whole = (at - power).abs() < 1e-9;
@@ -195,5 +196,7 @@ mod tests {
         assert_eq!(scale(-6.0, 0.0, true).tick(-3.5), "");
         assert_eq!(scale(0.0, 1.0, true).tick(0.5), "3.2");
         assert_eq!(scale(0.0, 10.0, false).tick(2.0000000001), "2");
+        assert_eq!(scale(-0.4, 8.4, false).tick(6.0), "6");
+        assert_eq!(scale(0.1, 1.05, false).tick(0.8), "0.8");
     }
 }
