@@ -1,5 +1,7 @@
 //! For which twists nested triangles have no positive weights, found by bisection over rational twists.
 
+use std::collections::BTreeMap;
+
 use rayon::prelude::*;
 
 use super::super::poll::{Case, Every};
@@ -7,6 +9,7 @@ use super::super::world::certified::certified;
 use super::super::world::twisted::{Twist, degrees, faces, ratio, turns, twisted};
 use super::ENTRY;
 use crate::experiment::Finding;
+use crate::figure::{Axis, Chart, Figure, Mark, Series};
 use crate::laplacian::equilibrium::Net;
 use crate::linalg::simplex::{Farkas, stiemke};
 use crate::scalar::{Rational, Scalar};
@@ -68,7 +71,7 @@ fn changes(size: &Rational, nested: usize, steps: usize) -> (Vec<Change>, usize)
 fn word(answer: Option<bool>) -> &'static str {
     match answer {
         None => "folded",
-        Some(true) => "positive weights",
+        Some(true) => "weights",
         Some(false) => "none",
     }
 }
@@ -121,6 +124,7 @@ fn certificates() -> Finding {
 fn range(steps: usize) -> Finding {
     let mut poll = Every::default();
     let (mut ranges, mut decided) = (Vec::new(), 0);
+    let mut lines: BTreeMap<(usize, usize), (String, Vec<[f64; 2]>)> = BTreeMap::new();
     let families: Vec<(usize, (i64, i64))> = [1, 2].iter().flat_map(|&n| SIZES.map(|size| (n, size))).collect();
     let decide = |&(nested, (n, d)): &(usize, (i64, i64))| changes(&ratio(n, d), nested, steps);
     let results: Vec<_> = families.par_iter().map(decide).collect();
@@ -134,6 +138,11 @@ fn range(steps: usize) -> Finding {
             })
             .collect();
         ranges.push(format!("{nested} of size {n}/{d}: {}", changes.join("; ")));
+        for (k, c) in found.iter().enumerate() {
+            let name = format!("{nested} inside: {} → {}", word(c.from), word(c.to));
+            let line = &mut lines.entry((nested, k)).or_insert((name, Vec::new())).1;
+            line.push([n as f64 / d as f64, degrees(&c.above)]);
+        }
         // From 0 on there are none, whatever the number and the size, up to where a triangle folds.
         let none = found.iter().all(|c| c.to != Some(true) || c.above < Rational::ZERO);
         poll.ask((!none).then(|| Case::told(format!("{nested} triangles of size {n}/{d}"))));
@@ -147,6 +156,12 @@ fn range(steps: usize) -> Finding {
         "families",
     );
     finding.finding += &format!("; {decided} twists decided; {}", ranges.join(". "));
+    finding.figures.push(Figure::Chart(Chart {
+        title: "Where nested triangles cease or begin to have positive weights as they are twisted".into(),
+        x: Axis::linear("size of the next triangle inside"),
+        y: Axis::linear("twist in degrees"),
+        series: lines.into_values().map(|(name, line)| Series::new(name, Mark::Both, line)).collect(),
+    }));
     finding
 }
 
