@@ -5,6 +5,7 @@
 //!
 //! To add one: write the file and name it below, in the `catalogue`.
 
+pub mod limit;
 mod poll;
 pub mod world;
 
