@@ -146,7 +146,7 @@ fn build(domain: &Domain, settings: &Settings) -> Result<Operator, BuildError> {
     let weights: Vec<EdgeWeights<f64>> = weights.into_iter().flatten().collect();
     let n = surface.positions().len();
     let matrix = stiffness::finite(ENTRY.id, n, &weights)?;
-    let each = shapes.iter().map(|(corners, shape)| (*corners, shape));
+    let each = shapes.iter().map(|(corners, shape)| (*corners, shape.clone()));
     let mass = mass::build(ENTRY.id, settings.get("mass"), n, each)?;
     let mut notes = on_triangles::notes(&triangles);
     notes.push(format!("{flips} flips to the intrinsic Delaunay triangulation"));
@@ -176,7 +176,7 @@ fn corners(intrinsic: &IntrinsicTriangulation, face: usize) -> [usize; 3] {
 /// straight in space.
 fn shape(intrinsic: &IntrinsicTriangulation, triangles: &Triangles, face: usize) -> Shape<f64> {
     if let Some(known) = intrinsic.source(face).and_then(|source| triangles.shape(source)) {
-        return known.clone();
+        return known;
     }
     if intrinsic.is_straight(face) {
         return Shape::in_space(intrinsic.corners(face).map(|v| intrinsic.surface().point(v)));

@@ -1,6 +1,9 @@
 //! Puts edge weights together to a stiffness matrix.
 
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+
 use super::BuildError;
+use crate::domain::incidence::Incidence;
 use crate::linalg::Csr;
 use crate::scalar::Scalar;
 
@@ -23,36 +26,71 @@ pub fn from_weights<S: Scalar>(vertices: usize, weights: &[EdgeWeights<S>]) -> C
     });
     at.sort();
     let columns = |i: usize| at.of(i).chunk_by(|a, b| a.0 == b.0);
-    let lengths: Vec<usize> = (0..vertices).map(|i| 1 + columns(i).count()).collect();
-    Csr::from_rows(vertices, &lengths, |i, indices, values| {
-        let entries = columns(i).map(|parallel| {
-            // Subtracted from zero rather than negated: a weight of zero is stored as +0.
-            let entry = |&(_, e): &(usize, usize)| {
-                let ([start, _], [forth, back]) = &weights[e];
-                S::zero() - if *start == i { forth } else { back }.clone()
-            };
-            let sum = parallel[1..].iter().fold(entry(&parallel[0]), |sum, e| sum + entry(e));
-            (parallel[0].0, sum)
-        });
-        write_row(i, entries, indices, values);
-    })
+    Csr::from_rows(
+        vertices,
+        vertices,
+        |i| 1 + columns(i).count(),
+        |i, indices, values| {
+            let entries = columns(i).map(|parallel| {
+                // Subtracted from zero rather than negated: a weight of zero is stored as +0.
+                let entry = |&(_, e): &(usize, usize)| {
+                    let ([start, _], [forth, back]) = &weights[e];
+                    S::zero() - if *start == i { forth } else { back }.clone()
+                };
+                let sum = parallel[1..].iter().fold(entry(&parallel[0]), |sum, e| sum + entry(e));
+                (parallel[0].0, sum)
+            });
+            write_row(i, entries, indices, values);
+        },
+    )
 }
 
-/// The same for edges `[smaller, larger]` in lexicographic order, none twice, and the weights of each: what
-/// [`from_weights`] makes of them, bit for bit, without sorting. Rows are written in parallel; beside the matrix it takes 8 bytes an
-/// edge and 24 a vertex.
-pub(super) fn from_edges<S: Scalar>(vertices: usize, edges: &[[usize; 2]], weights: &[[S; 2]]) -> Csr<S> {
-    // The edges that end at each vertex, ascending: their starts are the columns before the diagonal.
-    let lower = Lists::gather(vertices, edges.len(), |e, add| add(edges[e][1], e));
-    let mut first = vec![0; vertices + 1];
-    edges.iter().for_each(|e| first[e[0] + 1] += 1);
-    (0..vertices).for_each(|v| first[v + 1] += first[v]);
-    let lengths: Vec<usize> = (0..vertices).map(|i| 1 + lower.of(i).len() + first[i + 1] - first[i]).collect();
-    Csr::from_rows(vertices, &lengths, |i, indices, values| {
-        let below = lower.of(i).iter().map(|&e| (edges[e][0], S::zero() - weights[e][1].clone()));
-        let above = (first[i]..first[i + 1]).map(|e| (edges[e][1], S::zero() - weights[e][0].clone()));
-        write_row(i, below.chain(above), indices, values);
-    })
+/// The same for the edges of a domain, `[smaller, larger]` in lexicographic order: `weight` has that of an edge in the row of its
+/// smaller end (`true`) and of its larger one. What [`from_weights`] makes of them, bit for bit, without sorting. Rows are written in
+/// parallel, each once; it takes no memory beside the matrix.
+///
+/// # Errors
+/// The first entry that is NaN or infinite.
+pub(super) fn of_edges(
+    laplacian: &'static str,
+    edges: &[[usize; 2]],
+    incidence: &Incidence,
+    weight: impl Fn(usize, bool) -> f64 + Sync,
+) -> Result<Csr, BuildError> {
+    // A sum is finite if and only if its terms and their sums are: the diagonal speaks for its row.
+    let finite = AtomicBool::new(true);
+    let n = incidence.vertices();
+    let matrix = Csr::from_rows(
+        n,
+        n,
+        |i| 1 + incidence.degree(i),
+        |i, indices, values| {
+            let below = incidence.downward(i).iter().map(|&e| (edges[e as usize][0], 0.0 - weight(e as usize, false)));
+            let above = incidence.upward(i).map(|e| (edges[e][1], 0.0 - weight(e, true)));
+            let (mut at, mut sum) = (0, 0.0);
+            let mut put = |j: usize, value: f64| {
+                (indices[at], values[at]) = (j, value);
+                at += 1;
+            };
+            for (j, value) in below {
+                sum -= value;
+                put(j, value);
+            }
+            put(i, 0.0);
+            for (j, value) in above {
+                sum -= value;
+                put(j, value);
+            }
+            values[incidence.downward(i).len()] = sum;
+            if !sum.is_finite() {
+                finite.store(false, Relaxed);
+            }
+        },
+    );
+    if !finite.into_inner() {
+        check_finite(laplacian, &matrix)?;
+    }
+    Ok(matrix)
 }
 
 /// Writes the entries of a row, columns ascending, and the diagonal between them, which is summed over them.
@@ -182,7 +220,9 @@ mod tests {
             let expected = bits(&from_triplets(n, &weights));
             for threads in [1, 2, 5] {
                 let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-                assert_eq!(pool.install(|| bits(&from_edges(n, &edges, &values))), expected, "{n} {count} {threads}");
+                let weight = |e: usize, upward: bool| if upward { values[e][0] } else { values[e][1] };
+                let build = || of_edges("x", &edges, &Incidence::new(n, &edges), weight).unwrap();
+                assert_eq!(pool.install(|| bits(&build())), expected, "{n} {count} {threads}");
             }
         }
     }
@@ -203,5 +243,10 @@ mod tests {
     fn an_infinite_weight_is_refused_with_its_place() {
         let refusal = finite("x", 2, &[([0, 1], [1.0, f64::INFINITY])]).unwrap_err();
         assert!(matches!(refusal, BuildError::NotFinite { i: 1, j: 0, .. }), "{refusal}");
+        for weight in [f64::INFINITY, f64::NAN, 1e308] {
+            let edges = [[0, 1], [0, 2]];
+            let refusal = of_edges("x", &edges, &Incidence::new(3, &edges), |_, _| weight).unwrap_err();
+            assert!(matches!(refusal, BuildError::NotFinite { i: 0, j: 0, .. }), "{refusal}");
+        }
     }
 }
