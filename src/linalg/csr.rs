@@ -126,6 +126,16 @@ impl<S: Scalar> Csr<S> {
         (&self.indices[range.clone()], &self.values[range])
     }
 
+    /// Where each row begins among the stored entries, and the end.
+    pub(super) fn offsets(&self) -> &[usize] {
+        &self.offsets
+    }
+
+    /// The columns of the stored entries, row by row.
+    pub fn indices(&self) -> &[usize] {
+        &self.indices
+    }
+
     /// The stored values, row by row.
     pub fn values(&self) -> &[S] {
         &self.values

@@ -8,7 +8,7 @@ use super::stencil::Stencil;
 use super::tolerance::Scales;
 use super::{Level, Verdict};
 use crate::domain::{Domain, DomainKind};
-use crate::linalg::Csr;
+use crate::linalg::{Csr, Mirror, parallel};
 use crate::operator::{Operator, Signs};
 
 /// An operator on its domain, with what several properties need of both, computed once.
@@ -24,6 +24,7 @@ pub struct Trial<'a> {
     stencil: OnceLock<Stencil>,
     finite: OnceLock<bool>,
     surveys: OnceLock<Surveys>,
+    mirror: OnceLock<Option<Mirror>>,
 }
 
 /// Matrix and domain do not belong together.
@@ -63,8 +64,8 @@ impl<'a> Trial<'a> {
             return Err(SizeMismatch { rows, vertices, hint });
         }
         let (scales, rounding, stencil) = (OnceLock::new(), OnceLock::new(), OnceLock::new());
-        let (finite, surveys) = (OnceLock::new(), OnceLock::new());
-        Ok(Trial { domain, operator, seed, scales, rounding, stencil, finite, surveys })
+        let (finite, surveys, mirror) = (OnceLock::new(), OnceLock::new(), OnceLock::new());
+        Ok(Trial { domain, operator, seed, scales, rounding, stencil, finite, surveys, mirror })
     }
 
     /// The scales that thresholds are relative to.
@@ -75,6 +76,11 @@ impl<'a> Trial<'a> {
     /// The thresholds of rows where their neighbours count.
     pub(crate) fn rounding(&self) -> &Rounding {
         self.rounding.get_or_init(|| Rounding::of(self))
+    }
+
+    /// Each entry of the stiffness matrix above the diagonal with its mirror image; `None` where one has none.
+    pub(crate) fn mirror(&self) -> Option<&Mirror> {
+        self.mirror.get_or_init(|| Mirror::of(self.operator.stiffness())).as_ref()
     }
 
     /// What the signs of the weights come to.
@@ -99,8 +105,10 @@ impl<'a> Trial<'a> {
         if self.domain.kind() == DomainKind::Points {
             return vec![false; self.domain.vertex_count()];
         }
-        let mut alone = vec![true; self.domain.vertex_count()];
-        self.domain.edges().iter().flatten().for_each(|&v| alone[v] = false);
+        let mut alone = parallel::collect(self.domain.vertex_count(), |v| self.stencil().neighbours(v).is_empty());
+        if !alone.contains(&true) {
+            return alone;
+        }
         for (i, j, _) in self.operator.stiffness().entries().filter(|(i, j, v)| i != j && **v != 0.0) {
             (alone[i], alone[j]) = (false, false);
         }

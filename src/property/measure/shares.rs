@@ -41,7 +41,7 @@ pub(crate) struct Share {
 /// The signed circumcentric part of a corner.
 pub(crate) fn voronoi(shape: &Shape, corner: usize) -> f64 {
     let (b, c) = ((corner + 1) % 3, (corner + 2) % 3);
-    0.125 * (shape.squared_length[b] * shape.cotangent[b] + shape.squared_length[c] * shape.cotangent[c])
+    0.125 * (shape.squared_length(b) * shape.cotangent[b] + shape.squared_length(c) * shape.cotangent[c])
 }
 
 /// The mixed part of a corner.
@@ -60,7 +60,7 @@ pub(crate) fn of(surface: &Surface, scales: &Scales) -> Vec<Share> {
     let faces = surface.faces();
     let known = scales.geometry().triangles.as_ref().map(|t| &t.faces);
     let shape = |face: usize| match known {
-        Some(known) => known[face].shape,
+        Some(known) => known[face].shape().copied(),
         None => Shape::of_face(surface, face),
     };
     parallel::collect(surface.positions().len(), |v| {
@@ -81,7 +81,7 @@ pub(crate) fn of(surface: &Surface, scales: &Scales) -> Vec<Share> {
             s.mixed += mixed(&shape, corner);
             s.lower += part.min(0.25 * shape.area);
             s.upper += part.max(0.5 * shape.area);
-            circumscribed += shape.squared_length[corner] * shape.inverse_sine[corner].powi(2);
+            circumscribed += shape.squared_length(corner) * shape.squared_cosecant(corner);
         }
         let q = scales.condition(v);
         s.threshold = Threshold::over(s.star, topology.star(v).len(), q);
@@ -102,8 +102,8 @@ pub(crate) fn area(surface: &Surface, scales: &Scales) -> (f64, Threshold) {
     };
     match &scales.geometry().triangles {
         Some(triangles) => {
-            let area = |f: &Element| f.shape.map_or(0.0, |s| s.area);
-            triangles.faces.iter().for_each(|f| add(area(f), 3, f.condition.unwrap_or(1.0)));
+            let area = |f: &Element| f.shape().map_or(0.0, |s| s.area);
+            triangles.faces.iter().for_each(|f| add(area(f), 3, f.condition().unwrap_or(1.0)));
         }
         None => {
             for (face, corners) in surface.faces().iter().enumerate() {
