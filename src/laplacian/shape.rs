@@ -253,7 +253,7 @@ fn check_triangles(laplacian: &'static str, surface: &Surface) -> Result<(), Bui
 const LAST: [usize; 3] = [2, 0, 1];
 
 /// The squared length of the side opposite each corner.
-fn squared_lengths<S: Scalar, const D: usize>(corners: [&[S; D]; 3]) -> [S; 3] {
+pub(super) fn squared_lengths<S: Scalar, const D: usize>(corners: [&[S; D]; 3]) -> [S; 3] {
     std::array::from_fn(|k| {
         let (p, q) = (corners[(k + 1) % 3], corners[(k + 2) % 3]);
         let side: [S; D] = std::array::from_fn(|axis| q[axis].clone() - p[axis].clone());

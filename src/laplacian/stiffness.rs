@@ -16,33 +16,36 @@ pub type EdgeWeights<S> = ([usize; 2], [S; 2]);
 /// The diagonal is summed over the finished weights of the row, columns ascending: a row sum is zero up to the rounding of
 /// that one sum, however the weights came about. Over the rationals it is zero. Cost: O(n + E log valence).
 pub fn from_weights<S: Scalar>(vertices: usize, weights: &[EdgeWeights<S>]) -> Csr<S> {
+    from_each(vertices, weights.len(), |e| weights[e].0, |e, forth| weights[e].1[usize::from(!forth)].clone())
+}
+
+/// The same where ends and weights are told by the number of the edge: the weight in the row of its first end (`true`) and of its second.
+pub(super) fn from_each<S: Scalar>(
+    vertices: usize,
+    edges: usize,
+    ends: impl Fn(usize) -> [usize; 2] + Sync,
+    weight: impl Fn(usize, bool) -> S + Sync,
+) -> Csr<S> {
     // At each vertex the other end and the number of each edge, by that end; those of a column in the order given.
-    let mut at = Lists::gather(vertices, weights.len(), |e, add| {
-        let [a, b] = weights[e].0;
+    let mut at = Lists::gather(vertices, edges, |e, add| {
+        let [a, b] = ends(e);
         if a != b {
-            add(a, (b, e));
-            add(b, (a, e));
+            add(a, (b as u32, e as u32));
+            add(b, (a as u32, e as u32));
         }
     });
     at.sort();
     let columns = |i: usize| at.of(i).chunk_by(|a, b| a.0 == b.0);
-    Csr::from_rows(
-        vertices,
-        vertices,
-        |i| 1 + columns(i).count(),
-        |i, indices, values| {
-            let entries = columns(i).map(|parallel| {
-                // Subtracted from zero rather than negated: a weight of zero is stored as +0.
-                let entry = |&(_, e): &(usize, usize)| {
-                    let ([start, _], [forth, back]) = &weights[e];
-                    S::zero() - if *start == i { forth } else { back }.clone()
-                };
-                let sum = parallel[1..].iter().fold(entry(&parallel[0]), |sum, e| sum + entry(e));
-                (parallel[0].0, sum)
-            });
-            write_row(i, entries, indices, values);
-        },
-    )
+    let write = |i: usize, indices: &mut [usize], values: &mut [S]| {
+        let entries = columns(i).map(|parallel| {
+            // Subtracted from zero rather than negated: a weight of zero is stored as +0.
+            let entry = |&(_, e): &(u32, u32)| S::zero() - weight(e as usize, ends(e as usize)[0] == i);
+            let sum = parallel[1..].iter().fold(entry(&parallel[0]), |sum, e| sum + entry(e));
+            (parallel[0].0 as usize, sum)
+        });
+        write_row(i, entries, indices, values);
+    };
+    Csr::from_rows(vertices, vertices, |i| 1 + columns(i).count(), write)
 }
 
 /// The same for the edges of a domain, `[smaller, larger]` in lexicographic order: `weight` has that of an edge in the row of its
