@@ -58,7 +58,7 @@ impl Corner {
 /// The connectivity of a list of faces: edges with the faces beside them, boundary, manifoldness.
 ///
 /// # Memory
-/// 24 bytes an edge, 16 a corner and 17 a vertex: with E = 3n and 6n corners on a triangle mesh of n vertices, 185 n.
+/// 24 bytes an edge, 16 a corner and 13 a vertex: with E = 3n and 6n corners on a triangle mesh of n vertices, 181 n.
 #[derive(Clone, Debug)]
 pub struct Topology {
     edges: Vec<[usize; 2]>,
@@ -67,7 +67,7 @@ pub struct Topology {
     non_manifold_edges: Vec<usize>,
     incidence: Incidence,
     boundary_vertices: Vec<bool>,
-    star_offsets: Vec<usize>,
+    star_offsets: Vec<u32>,
     star: Vec<Corner>,
 }
 
@@ -95,7 +95,7 @@ impl Topology {
     pub fn new(vertices: usize, faces: &Faces) -> Self {
         assert!(faces.corners().len() <= Topology::MOST_CORNERS, "too many corners to number");
         let (star_offsets, star) = stars(vertices, faces);
-        let around = |v: usize| &star[star_offsets[v]..star_offsets[v + 1]];
+        let around = |v: usize| &star[star_offsets[v] as usize..star_offsets[v + 1] as usize];
         let block = |range: std::ops::Range<usize>, mut block: Block| {
             let mut found: Vec<(usize, Side)> = Vec::new();
             for low in range {
@@ -183,7 +183,7 @@ impl Topology {
 
     /// The faces around a vertex, each with the corner at which the vertex sits, in face order.
     pub fn star(&self, vertex: usize) -> &[Corner] {
-        &self.star[self.star_offsets[vertex]..self.star_offsets[vertex + 1]]
+        &self.star[self.star_offsets[vertex] as usize..self.star_offsets[vertex + 1] as usize]
     }
 
     /// The number of boundary loops: connected components of the boundary edges.
@@ -228,22 +228,23 @@ impl Topology {
 }
 
 /// The corners around each vertex, in face order, and where those of each vertex begin.
-fn stars(vertices: usize, faces: &Faces) -> (Vec<usize>, Vec<Corner>) {
-    let mut offsets = vec![0; vertices + 1];
+fn stars(vertices: usize, faces: &Faces) -> (Vec<u32>, Vec<Corner>) {
+    let mut offsets = vec![0; vertices + 2];
     for &v in faces.corners() {
-        offsets[v + 1] += 1;
+        offsets[v + 2] += 1;
     }
-    for v in 0..vertices {
+    for v in 0..=vertices {
         offsets[v + 1] += offsets[v];
     }
-    let mut next = offsets.clone();
+    // Counted two places on, the offsets are where the next corner goes, and where each star begins in the end.
     let mut star = vec![Corner { face: 0, corner: 0 }; faces.corners().len()];
     for (face, corners) in faces.iter().enumerate() {
         for (corner, &v) in corners.iter().enumerate() {
-            star[next[v]] = Corner { face: face as u32, corner: corner as u32 };
-            next[v] += 1;
+            star[offsets[v + 1] as usize] = Corner { face: face as u32, corner: corner as u32 };
+            offsets[v + 1] += 1;
         }
     }
+    offsets.pop();
     (offsets, star)
 }
 
@@ -260,17 +261,18 @@ fn edges_upward(low: usize, star: &[Corner], faces: &Faces, found: &mut Vec<(usi
             found.push((previous, Side { face: at.face, corner_and_direction: 2 * corner }));
         }
     }
-    // An insertion sort: the lists are short.
-    let key = |&(high, side): &(usize, Side)| (high, side.face, side.corner_and_direction / 2);
+    // Faces come in order, and each names a vertex once: sorted by the vertex, equal ones kept in order, all is in order. The lists
+    // are short, so by insertion.
     if found.len() > 32 {
-        return found.sort_unstable_by_key(key);
+        return found.sort_by_key(|&(high, _)| high);
     }
     for k in 1..found.len() {
-        let mut at = k;
-        while at > 0 && key(&found[at - 1]) > key(&found[at]) {
-            found.swap(at - 1, at);
+        let (item, mut at) = (found[k], k);
+        while at > 0 && found[at - 1].0 > item.0 {
+            found[at] = found[at - 1];
             at -= 1;
         }
+        found[at] = item;
     }
 }
 

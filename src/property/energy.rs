@@ -54,7 +54,7 @@ fn check(trial: &Trial) -> Verdict {
     if plane.is_none() && !shares::has_planar_faces(surface) {
         return Verdict::not_applicable("the surface has a polygon that is not planar: its area is a convention");
     }
-    let (area, area_threshold) = shares::area(surface, trial.scales());
+    let (area, area_threshold) = trial.area(surface);
     if area == 0.0 {
         return Verdict::not_applicable("the surface has no area");
     }

@@ -3,11 +3,12 @@
 use std::sync::OnceLock;
 
 use super::measure::rounding::Rounding;
+use super::measure::shares;
 use super::measure::weights::Surveys;
 use super::stencil::Stencil;
-use super::tolerance::Scales;
+use super::tolerance::{Scales, Threshold};
 use super::{Level, Verdict};
-use crate::domain::{Domain, DomainKind};
+use crate::domain::{Domain, DomainKind, Surface};
 use crate::linalg::{Csr, Mirror, parallel};
 use crate::operator::{Operator, Signs};
 
@@ -25,6 +26,7 @@ pub struct Trial<'a> {
     finite: OnceLock<bool>,
     surveys: OnceLock<Surveys>,
     mirror: OnceLock<Option<Mirror>>,
+    area: OnceLock<(f64, Threshold)>,
 }
 
 /// Matrix and domain do not belong together.
@@ -64,8 +66,8 @@ impl<'a> Trial<'a> {
             return Err(SizeMismatch { rows, vertices, hint });
         }
         let (scales, rounding, stencil) = (OnceLock::new(), OnceLock::new(), OnceLock::new());
-        let (finite, surveys, mirror) = (OnceLock::new(), OnceLock::new(), OnceLock::new());
-        Ok(Trial { domain, operator, seed, scales, rounding, stencil, finite, surveys, mirror })
+        let (finite, surveys, mirror, area) = (OnceLock::new(), OnceLock::new(), OnceLock::new(), OnceLock::new());
+        Ok(Trial { domain, operator, seed, scales, rounding, stencil, finite, surveys, mirror, area })
     }
 
     /// The scales that thresholds are relative to.
@@ -81,6 +83,11 @@ impl<'a> Trial<'a> {
     /// Each entry of the stiffness matrix above the diagonal with its mirror image; `None` where one has none.
     pub(crate) fn mirror(&self) -> Option<&Mirror> {
         self.mirror.get_or_init(|| Mirror::of(self.operator.stiffness())).as_ref()
+    }
+
+    /// The area of the surface of the trial, and what a total is measured against as far as the area's own rounding goes.
+    pub(crate) fn area(&self, surface: &Surface) -> (f64, Threshold) {
+        *self.area.get_or_init(|| shares::area(surface, self.scales()))
     }
 
     /// What the signs of the weights come to.
