@@ -147,8 +147,14 @@ fn build(domain: &Domain, settings: &Settings) -> Result<Operator, BuildError> {
     let ends = |e: usize| intrinsic.ends(e).unwrap_or_default();
     let matrix = stiffness::from_each(n, weights.len(), ends, |e, _| weights[e]);
     stiffness::check_finite(ENTRY.id, &matrix)?;
-    let each = angles.iter().enumerate().map(|(f, a)| (corners(&intrinsic, f), shape(&intrinsic, &triangles, f, a)));
-    let mass = mass::build(ENTRY.id, settings.get("mass"), n, each)?;
+    let each = angles.iter().enumerate().map(|(f, angles)| (f, corners(&intrinsic, f), angles));
+    let mass = match settings.get("mass") {
+        "barycentric" => mass::barycentric(ENTRY.id, n, each.map(|(_, corners, angles)| (corners, angles[3])))?,
+        name => {
+            let shape = |f: usize, angles: &[f64; 4]| shape(&intrinsic, &triangles, f, angles);
+            mass::build(ENTRY.id, name, n, each.map(|(f, corners, angles)| (corners, shape(f, angles))))?
+        }
+    };
     let mut notes = on_triangles::notes(&triangles);
     notes.push(format!("{flips} flips to the intrinsic Delaunay triangulation"));
     notes.extend(negative_by_rounding(&intrinsic, &weights));

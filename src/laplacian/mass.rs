@@ -78,6 +78,28 @@ pub(super) fn build(
     Ok(Mass::full(kind, matrix))
 }
 
+/// The barycentric mass of triangles of which no more than corners and twice the areas are known, bit for bit that of [`build`].
+///
+/// # Errors
+/// As [`build`].
+pub(super) fn barycentric(
+    laplacian: &'static str,
+    vertices: usize,
+    triangles: impl Iterator<Item = ([usize; 3], f64)>,
+) -> Result<Mass, BuildError> {
+    let mut diagonal = vec![0.0; vertices];
+    for (corners, doubled_area) in triangles {
+        if !doubled_area.is_normal() {
+            let [i, j, _] = corners;
+            return Err(BuildError::NotFinite { laplacian, i, j, value: format!("area {doubled_area:e}") });
+        }
+        corners.into_iter().for_each(|v| diagonal[v] += doubled_area / 6.0);
+    }
+    let mass = Mass::of_diagonal(MassKind::Barycentric, diagonal);
+    check_finite(laplacian, mass.matrix())?;
+    Ok(mass)
+}
+
 /// The mass matrix with this name of the proper triangles of a surface, bit for bit that of [`build`]; a diagonal one is
 /// gathered vertex by vertex over the faces around it, in parallel.
 ///

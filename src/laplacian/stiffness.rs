@@ -27,12 +27,9 @@ pub(super) fn from_each<S: Scalar>(
     weight: impl Fn(usize, bool) -> S + Sync,
 ) -> Csr<S> {
     // At each vertex the other end and the number of each edge, by that end; those of a column in the order given.
-    let mut at = Lists::gather(vertices, edges, |e, add| {
+    let mut at = Lists::gather(vertices, edges, |e| {
         let [a, b] = ends(e);
-        if a != b {
-            add(a, (b as u32, e as u32));
-            add(b, (a as u32, e as u32));
-        }
+        (a != b).then_some([(a, (b as u32, e as u32)), (b, (a as u32, e as u32))])
     });
     at.sort();
     let columns = |i: usize| at.of(i).chunk_by(|a, b| a.0 == b.0);
@@ -120,18 +117,17 @@ struct Lists<T> {
 }
 
 impl<T: Copy + Default + Ord> Lists<T> {
-    /// Puts down what `put` adds for each of `0..count` at the vertices that it names, in that order: a counting sort.
-    fn gather(vertices: usize, count: usize, put: impl Fn(usize, &mut dyn FnMut(usize, T))) -> Self {
+    /// Puts down the two items of each of `0..count` that has any, at the vertices that they come with, in that order: a counting sort.
+    fn gather(vertices: usize, count: usize, pair: impl Fn(usize) -> Option<[(usize, T); 2]>) -> Self {
+        let all = || (0..count).filter_map(&pair).flatten();
         let mut offsets = vec![0; vertices + 2];
         // Counted two places on, the offsets are where the next item goes, and where each list begins in the end.
-        (0..count).for_each(|e| put(e, &mut |v, _| offsets[v + 2] += 1));
+        all().for_each(|(v, _)| offsets[v + 2] += 1);
         (0..=vertices).for_each(|v| offsets[v + 1] += offsets[v]);
         let mut items = vec![T::default(); offsets[vertices + 1]];
-        for e in 0..count {
-            put(e, &mut |v, item| {
-                items[offsets[v + 1]] = item;
-                offsets[v + 1] += 1;
-            });
+        for (v, item) in all() {
+            items[offsets[v + 1]] = item;
+            offsets[v + 1] += 1;
         }
         Lists { offsets, items }
     }
