@@ -24,6 +24,7 @@ use std::io::{BufRead, Write};
 use std::path::Path;
 use std::time::Instant;
 
+use lapjury::domain::Faces;
 use lapjury::linalg::spectrum::lowest;
 use lapjury::operator::Provenance;
 use lapjury::{Domain, Mass, MassKind, Operator, Surface, Trial, laplacian, property};
@@ -110,9 +111,9 @@ impl Task {
                 Ok(timed)
             }
             Task::FromFaces { id, positions, faces } => {
-                let positions = positions.clone();
+                let (positions, faces) = (positions.clone(), Faces::from(faces.clone()));
                 let clock = Clock::start();
-                let domain = Domain::from(Surface::triangles(positions, faces)?);
+                let domain = Domain::from(Surface::from_faces(positions, faces)?);
                 let topology = clock.0.elapsed().as_secs_f64();
                 let operator = build(id, &domain)?;
                 let timed = clock.stop(vec![("topology", topology)]);

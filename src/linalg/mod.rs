@@ -11,6 +11,7 @@ pub mod factor;
 pub mod full;
 mod influence;
 mod lanczos;
+pub mod mirror;
 pub(crate) mod parallel;
 pub mod program;
 pub mod rational;
@@ -20,3 +21,4 @@ pub mod spectrum;
 
 pub use csr::Csr;
 pub use exact::Dense;
+pub use mirror::Mirror;
