@@ -22,6 +22,7 @@ catalogue! {
     cotangent_sign,
     cheeger_inequality,
     cheeger_sweep,
+    cheeger_on_surfaces,
     dual_faces,
     family_positivity,
     orthogonal_duals,
