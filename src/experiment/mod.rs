@@ -21,6 +21,8 @@ catalogue! {
     linear_precision_of_graphs,
     cotangent_sign,
     cheeger_inequality,
+    cheeger_sweep,
+    cheeger_on_surfaces,
     dual_faces,
     family_positivity,
     orthogonal_duals,
