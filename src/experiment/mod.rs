@@ -5,12 +5,14 @@
 //!
 //! To add one: write the file and name it below, in the `catalogue`.
 
+mod calculus;
 mod poll;
 pub mod world;
 
 catalogue! {
     /// Every experiment, in the order of the claims.
     Experiment:
+    metric_from_cotangents,
     graph_form,
     graph_positivity,
     mean_value_property,
