@@ -12,6 +12,7 @@ pub mod world;
 catalogue! {
     /// Every experiment, in the order of the claims.
     Experiment:
+    smooth_functions,
     metric_from_cotangents,
     graph_form,
     graph_positivity,

@@ -5,11 +5,9 @@
 mod form;
 mod integral;
 mod polynomial;
-mod univariate;
 
-pub use form::{Form, masks};
-pub use polynomial::Polynomial;
-pub use univariate::{characteristic, diagonalises, roots_in};
+pub use form::{Form, random_simplex};
+pub use polynomial::{Polynomial, divergence};
 
 use crate::generate::Stream;
 use crate::scalar::Rational;
