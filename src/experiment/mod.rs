@@ -13,6 +13,7 @@ catalogue! {
     /// Every experiment, in the order of the claims.
     Experiment:
     smooth_functions,
+    kernels_and_minmax,
     metric_from_cotangents,
     graph_form,
     graph_positivity,

@@ -24,7 +24,7 @@ pub fn masks(dimension: usize, degree: usize) -> Vec<u32> {
 /// The sign of `dx_k ∧ dx_I` against the differentials in ascending order; `None` if k is in I.
 pub fn wedge_sign(k: usize, mask: u32) -> Option<i64> {
     let before = (mask & ((1 << k) - 1)).count_ones();
-    (mask >> k & 1 == 0).then_some(if before % 2 == 0 { 1 } else { -1 })
+    (mask >> k & 1 == 0).then_some(if before.is_multiple_of(2) { 1 } else { -1 })
 }
 
 impl Form {

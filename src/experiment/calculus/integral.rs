@@ -91,7 +91,7 @@ mod tests {
             let expected = p.average_over_sphere(&r);
             let (mut total, mut factor) = (Rational::ZERO, Rational::ONE);
             for k in 0..=3_i64 {
-                total = total + factor.clone() * p.constant_term();
+                total += factor.clone() * p.constant_term();
                 p = -&p.laplacian();
                 factor = factor * r.clone() * r.clone() / whole(2 * (k + 1) * (n as i64 + 2 * k));
             }

@@ -179,14 +179,18 @@ impl Sub for &Polynomial {
     }
 }
 
+/// The exponents of a product of two terms.
+fn joined(e: &[u32], f: &[u32]) -> Vec<u32> {
+    e.iter().zip(f).map(|(a, b)| a + b).collect()
+}
+
 impl Mul for &Polynomial {
     type Output = Polynomial;
     fn mul(self, other: &Polynomial) -> Polynomial {
         let mut product = Polynomial::zero(self.variables);
         for (e, c) in &self.terms {
             for (f, d) in &other.terms {
-                let exponents = e.iter().zip(f).map(|(a, b)| a + b).collect();
-                product = product.plus(exponents, c.clone() * d.clone());
+                product = product.plus(joined(e, f), c.clone() * d.clone());
             }
         }
         product

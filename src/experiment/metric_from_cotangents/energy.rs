@@ -51,6 +51,13 @@ pub struct Minimum {
     pub steps: Vec<f64>,
 }
 
+/// A Newton step within the gauge, λ of each part, and the gradient there.
+struct Step {
+    direction: Vec<f64>,
+    multipliers: Vec<f64>,
+    gradient: Vec<f64>,
+}
+
 /// Why no minimum was found.
 #[derive(Debug, PartialEq, thiserror::Error)]
 pub enum NoMinimum {
@@ -151,7 +158,7 @@ impl Sides {
     ) -> Result<Minimum, NoMinimum> {
         let (mut u, mut last) = (start.to_vec(), f64::INFINITY);
         for _ in 0..LIMIT {
-            let (direction, multipliers, gradient) = self.newton(w, gauge, &u)?;
+            let Step { direction, multipliers, gradient } = self.newton(w, gauge, &u)?;
             let slope: f64 = direction.iter().zip(&gradient).map(|(d, g)| d * g).sum();
             let (energy, size) = self.energy(w, &u).ok_or(NoMinimum::Unsettled)?;
             let rounding = gamma(u.len() + self.triangles.len()) * size;
@@ -189,7 +196,7 @@ impl Sides {
     ///
     /// `H u = 0` on each part, so `H d = λ − g` can be solved with one side of each part left out of H, which is then positive
     /// definite, and a multiple of u restores the gauge.
-    fn newton(&self, w: &[f64], gauge: &[f64], u: &[f64]) -> Result<(Vec<f64>, Vec<f64>, Vec<f64>), NoMinimum> {
+    fn newton(&self, w: &[f64], gauge: &[f64], u: &[f64]) -> Result<Step, NoMinimum> {
         let (n, parts) = (u.len(), self.part_count());
         let cotangents = self.cotangents(u).ok_or(NoMinimum::Unsettled)?;
         let gradient: Vec<f64> = w.iter().zip(&cotangents).map(|(w, c)| w - c).collect();
@@ -210,7 +217,7 @@ impl Sides {
         kept.iter().zip(&column[0]).for_each(|(&e, d)| direction[e] = *d);
         let drift = self.per_part(direction.iter().zip(gauge).map(|(d, c)| d * c));
         (0..n).for_each(|e| direction[e] -= drift[self.parts[e]] / total[self.parts[e]] * u[e]);
-        Ok((direction, multipliers, gradient))
+        Ok(Step { direction, multipliers, gradient })
     }
 
     /// `E″`: of each triangle `(b bᵀ/Q − B)/(2√Q)`, B with −1 on the diagonal and 1 beside it, b = Bu.

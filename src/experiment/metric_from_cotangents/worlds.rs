@@ -65,7 +65,7 @@ fn draw_closed(case: usize, stream: &mut Stream) -> Option<Specimen> {
     };
     let shaken = ("perturb", vec![("amount", stream.between(0.02, 0.25).to_string())]);
     let flipped = ("flip", vec![("count", text(1 + stream.below(12)))]);
-    let steps = if case / 3 % 2 == 0 { vec![source, shaken] } else { vec![source, shaken, flipped] };
+    let steps = if (case / 3).is_multiple_of(2) { vec![source, shaken] } else { vec![source, shaken, flipped] };
     make(&steps, seed)
 }
 
