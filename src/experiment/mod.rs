@@ -5,12 +5,16 @@
 //!
 //! To add one: write the file and name it below, in the `catalogue`.
 
+mod calculus;
 mod poll;
 pub mod world;
 
 catalogue! {
     /// Every experiment, in the order of the claims.
     Experiment:
+    smooth_functions,
+    kernels_and_minmax,
+    metric_from_cotangents,
     graph_form,
     graph_positivity,
     mean_value_property,

@@ -70,6 +70,7 @@ pub enum ClaimError {
 pub static BUILT_IN: &[(&str, &str)] = &[
     ("taxonomy", include_str!("../../../suites/claims/taxonomy.toml")),
     ("cheeger", include_str!("../../../suites/claims/cheeger.toml")),
+    ("smooth", include_str!("../../../suites/claims/smooth.toml")),
     ("graphs", include_str!("../../../suites/claims/graphs.toml")),
     ("discrete", include_str!("../../../suites/claims/discrete.toml")),
     ("coordinates", include_str!("../../../suites/claims/coordinates.toml")),
