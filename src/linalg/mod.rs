@@ -12,6 +12,8 @@ pub mod full;
 mod influence;
 mod lanczos;
 pub(crate) mod parallel;
+pub mod pencil;
+pub mod polynomial;
 pub mod program;
 pub mod rational;
 pub mod regular;
@@ -20,3 +22,5 @@ pub mod spectrum;
 
 pub use csr::Csr;
 pub use exact::Dense;
+pub use pencil::Pencil;
+pub use polynomial::Polynomial;
