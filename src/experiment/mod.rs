@@ -21,6 +21,7 @@ catalogue! {
     linear_precision_of_graphs,
     cotangent_sign,
     cheeger_inequality,
+    isospectral_graphs,
     dual_faces,
     family_positivity,
     orthogonal_duals,
