@@ -3,6 +3,7 @@
 pub mod certified;
 pub mod descent;
 pub mod discs;
+pub mod drums;
 pub mod excerpt;
 pub mod five_points;
 pub mod graphs;
