@@ -183,7 +183,9 @@ fn every_witness_survives_an_independent_look() {
         ["asymmetry", "below-cheeger", "far", "moment", "negative-energy", "overshoot", "singular", "weight"];
     let of_weights = ["equilibrium", "lift", "motion", "no-lift"];
     let of_triangulations = ["extension", "flips", "not-embedded", "not-minimal", "torus"];
-    assert_eq!(kinds, of_matrices.into_iter().chain(of_weights).chain(of_triangulations).collect());
+    let of_spectra = ["cospectral", "delaunay-eigenvalue", "spectra-differ", "transplantation"];
+    let all = of_matrices.into_iter().chain(of_weights).chain(of_triangulations).chain(of_spectra);
+    assert_eq!(kinds, all.collect());
 }
 
 #[test]
@@ -231,6 +233,7 @@ fn the_triangulations_found_have_the_property_they_were_searched_for() {
 fn spoilt(evidence: &Evidence) -> Evidence {
     let mut spoilt = evidence.clone();
     triangulations::spoil(&mut spoilt);
+    spectra::spoil(&mut spoilt);
     for row in &mut spoilt.excerpt.rows {
         match evidence.statement {
             Statement::Asymmetry { .. } | Statement::FarEntry { .. } => row.entries.retain(|e| e.0 == row.row),
@@ -346,14 +349,20 @@ fn look(evidence: &Evidence) -> Result<&'static str, String> {
         Statement::Lift { .. }
         | Statement::Equilibrium { .. }
         | Statement::Motion { .. }
-        | Statement::NoLift { .. } => match recheck::from_excerpt(evidence) {
+        | Statement::NoLift { .. }
+        | Statement::Transplantation { .. } => match recheck::from_excerpt(evidence) {
             Ok(Rechecked::Exact) => Ok(recheck::kind(&evidence.statement)),
             other => Err(format!("{other:?}")),
         },
+        Statement::Cospectral { .. } | Statement::SpectraDiffer { .. } | Statement::DelaunayEigenvalue { .. } => {
+            spectra::look(evidence)
+        }
         _ => triangulations::look(evidence),
     }
 }
 
+#[path = "look/spectra.rs"]
+mod spectra;
 #[path = "look/triangulations.rs"]
 mod triangulations;
 

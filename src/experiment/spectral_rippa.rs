@@ -18,7 +18,9 @@
 
 use super::poll::{Case, Every};
 use super::world::descent::Descent;
-use super::world::triangulations::{Point, Triangulation, describe_world, doubled_area, point_sets, sweep, triangulations};
+use super::world::triangulations::{
+    Point, Triangulation, describe_world, doubled_area, point_sets, sweep, triangulations,
+};
 use super::{Experiment, Finding, Setting};
 use crate::domain::Surface;
 use crate::figure::{Figure, Sketch};
@@ -87,9 +89,10 @@ impl Meshed {
     /// Whether every circle of a triangle has all other points strictly outside: the only Delaunay triangulation.
     fn is_strictly_delaunay(&self) -> bool {
         let p = self.triangulation.points();
-        self.triangulation.faces().iter().all(|f| {
-            (0..p.len()).filter(|d| !f.contains(d)).all(|d| incircle(p, [f[0], f[1], f[2], d]) < 0)
-        })
+        self.triangulation
+            .faces()
+            .iter()
+            .all(|f| (0..p.len()).filter(|d| !f.contains(d)).all(|d| incircle(p, [f[0], f[1], f[2], d]) < 0))
     }
 
     fn is_delaunay(&self) -> bool {
@@ -125,46 +128,62 @@ struct Polls {
 fn run(setting: &Setting) -> Vec<Finding> {
     let mut stream = Stream::new(setting.seed, ENTRY.id);
     let mut polls = Polls::default();
-    // Most of the world with five points is in the largest boxes.
+    // Problems with as many rows as points are asked in a smaller world; those of the one or two vertices inside in all of it.
     let (largest, side) = (5, setting.pick(2, 3) as i64);
-    for points in (4..=largest).flat_map(|n| point_sets(n, side)) {
-        polls.ask(&points, &mut stream);
+    for points in (4..=largest).flat_map(|n| point_sets(n, 3)) {
+        let width = points.iter().map(|p| p[0]).max().unwrap_or(0);
+        let conditions = if width <= side { &CONDITIONS[..] } else { &CONDITIONS[1..] };
+        polls.ask(&points, conditions, &mut stream);
     }
     for _ in 0..setting.pick(2, 12) {
         polls.at_random(6 + stream.below(setting.pick(3, 5)), &mut stream);
     }
-    polls.answer(&describe_world(largest).replace("4 × 4", &format!("{0} × {0}", side + 1)))
+    let world = describe_world(largest);
+    polls.answer([&world.replace("4 × 4", &format!("{0} × {0}", side + 1)), &world])
 }
 
 impl Polls {
     /// Every other triangulation of some points against the Delaunay one.
-    fn ask(&mut self, points: &[Point], stream: &mut Stream) {
+    fn ask(&mut self, points: &[Point], conditions: &[Condition], stream: &mut Stream) {
         let all: Vec<Meshed> = triangulations(points).into_iter().filter_map(Meshed::of).collect();
         let Some(delaunay) = all.iter().find(|t| t.is_delaunay()).filter(|_| all.len() > 1) else { return };
         let unit = Csr::diagonal(&vec![Rational::ONE; points.len()]);
         let drawn: Vec<Rational> = points.iter().map(|_| Rational::from(1 + stream.below(9) as u64)).collect();
         let fixed = Csr::diagonal(&drawn);
         let only = delaunay.is_strictly_delaunay();
-        for (k, condition) in CONDITIONS.into_iter().enumerate() {
+        for &condition in conditions {
+            let k = usize::from(condition == Condition::Dirichlet);
             if delaunay.rows(condition).is_empty() {
                 continue;
             }
             for (poll, mass) in [(&mut self.alone[k], &unit), (&mut self.fixed[k], &fixed)] {
-                each(delaunay, &all, condition, |_| Some(mass.clone()), |answer| {
-                    poll.ask(answer.map(|(other, t)| Case::told(told(delaunay, other, &t))));
-                });
+                each(
+                    delaunay,
+                    &all,
+                    condition,
+                    |_| Some(mass.clone()),
+                    |answer| {
+                        poll.ask(answer.map(|(other, t)| Case::told(told(delaunay, other, &t))));
+                    },
+                );
             }
             for (m, (kind, weighting)) in OWN.into_iter().enumerate().filter(|_| only) {
                 let (poll, figures) = &mut self.own[m][k];
-                each(delaunay, &all, condition, |mesh| mesh.own_mass(kind), |answer| {
-                    let case = answer.map(|(other, t)| {
-                        if figures.is_empty() {
-                            *figures = vec![sketch(delaunay, "Delaunay"), sketch(other, "the other triangulation")];
-                        }
-                        shown([delaunay, other], condition, (kind, weighting), &t)
-                    });
-                    poll.ask(case);
-                });
+                each(
+                    delaunay,
+                    &all,
+                    condition,
+                    |mesh| mesh.own_mass(kind),
+                    |answer| {
+                        let case = answer.map(|(other, t)| {
+                            if figures.is_empty() {
+                                *figures = vec![sketch(delaunay, "Delaunay"), sketch(other, "the other triangulation")];
+                            }
+                            shown([delaunay, other], condition, (kind, weighting), &t)
+                        });
+                        poll.ask(case);
+                    },
+                );
             }
         }
     }
@@ -197,9 +216,12 @@ impl Polls {
         }
     }
 
-    fn answer(self, world: &str) -> Vec<Finding> {
+    fn answer(self, [world, whole]: [&str; 2]) -> Vec<Finding> {
         let p = ENTRY.parts;
-        let ask = |what: &str| format!("Is λ_i(T) ≥ λ_i(D) for every i, {what}? Cases: {world}.");
+        let ask = |what: &str| {
+            let cases = if what.contains("Dirichlet") { whole } else { world };
+            format!("Is λ_i(T) ≥ λ_i(D) for every i, {what}? Cases: {cases}.")
+        };
         let others = "pairs of a triangulation and the Delaunay one of the same points";
         let [alone, alone_inside] = self.alone;
         let [fixed, fixed_inside] = self.fixed;
@@ -218,7 +240,8 @@ impl Polls {
         let named = ["barycentric", "consistent"].into_iter().flat_map(|m| ["Neumann", "Dirichlet"].map(|c| (m, c)));
         let polls = barycentric.into_iter().chain(consistent);
         for (((poll, figures), (mass, condition)), part) in polls.zip(named).zip(&p[5..]) {
-            let question = ask(&format!("with the {mass} mass, {condition}, the Delaunay triangulation being the only one"));
+            let question =
+                ask(&format!("with the {mass} mass, {condition}, the Delaunay triangulation being the only one"));
             let mut finding = poll.answer(part, question, others);
             finding.figures = figures;
             findings.push(finding);
@@ -243,9 +266,8 @@ fn each<'a>(
     mass: impl Fn(&Meshed) -> Option<Csr<Rational>>,
     mut answer: impl FnMut(Option<(&'a Meshed, Rational)>),
 ) {
-    let polynomial = |mesh: &Meshed| -> Option<Polynomial<Rational>> {
-        mesh.pencil(&mass(mesh)?, condition)?.characteristic()
-    };
+    let polynomial =
+        |mesh: &Meshed| -> Option<Polynomial<Rational>> { mesh.pencil(&mass(mesh)?, condition)?.characteristic() };
     let Some(smallest) = polynomial(delaunay) else { return };
     for other in all.iter().filter(|t| t.triangulation != delaunay.triangulation) {
         if let Some(found) = polynomial(other) {
@@ -267,7 +289,8 @@ fn probes(pencil: &Pencil) -> Vec<Rational> {
 }
 
 fn told(delaunay: &Meshed, other: &Meshed, t: &Rational) -> String {
-    let faces: Vec<String> = other.triangulation.faces().iter().map(|f| format!("{}-{}-{}", f[0], f[1], f[2])).collect();
+    let faces: Vec<String> =
+        other.triangulation.faces().iter().map(|f| format!("{}-{}-{}", f[0], f[1], f[2])).collect();
     format!("more eigenvalues below {t} on {} than on Delaunay, {}", faces.join(" "), delaunay.triangulation.describe())
 }
 

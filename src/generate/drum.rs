@@ -29,7 +29,12 @@ pub static ENTRY: Generator = Generator {
     sources: &["gordon-webb-wolpert1992", "buser1994"],
     parameters: &[
         Parameter { name: "which", meaning: "which of the two", default: "a", range: Range::Choice(&["a", "b"]) },
-        Parameter { name: "level", meaning: "level of refinement of the tile", default: "3", range: Range::Whole(0, 8) },
+        Parameter {
+            name: "level",
+            meaning: "level of refinement of the tile",
+            default: "3",
+            range: Range::Whole(0, 8),
+        },
         Parameter {
             name: "tile",
             meaning: "the corners of the first tile, coordinates apart by a space and corners by ';'",
@@ -235,9 +240,8 @@ mod tests {
         }
         let n = cycle.len();
         let at = |k: usize| surface.point(cycle[k % n]);
-        let corners: Vec<usize> = (0..n)
-            .filter(|&k| (at(k) - at(k + n - 1)).cross(&(at(k + 1) - at(k))).norm() > 1e-9)
-            .collect();
+        let corners: Vec<usize> =
+            (0..n).filter(|&k| (at(k) - at(k + n - 1)).cross(&(at(k + 1) - at(k))).norm() > 1e-9).collect();
         let m = corners.len();
         (0..m).map(|k| (at(corners[(k + 1) % m]) - at(corners[k])).norm()).collect()
     }

@@ -334,7 +334,7 @@ mod tests {
             fn determinant(m: &[Vec<f64>]) -> f64 {
                 let minor =
                     |j: usize| -> Vec<Vec<f64>> { m[1..].iter().map(|r| [&r[..j], &r[j + 1..]].concat()).collect() };
-                let sign = |j: usize| if j % 2 == 0 { 1.0 } else { -1.0 };
+                let sign = |j: usize| if j.is_multiple_of(2) { 1.0 } else { -1.0 };
                 if m.is_empty() { 1.0 } else { (0..m.len()).map(|j| sign(j) * m[0][j] * determinant(&minor(j))).sum() }
             }
             let rows: Vec<Vec<f64>> =

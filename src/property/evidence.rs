@@ -542,8 +542,8 @@ pub enum Statement {
         /// `det(L − σM)` of each, exactly.
         determinants: [Fraction; 2],
     },
-    /// A witness against Rippa's theorem for eigenvalues: the faces of the excerpt (whole numbers as positions) are a Delaunay
-    /// triangulation, and its eigenvalue problem has fewer eigenvalues below `sigma` than that of the triangulation `other` of
+    /// A witness against Rippa's theorem for eigenvalues: the faces of the excerpt (whole numbers as positions) are the only
+    /// Delaunay triangulation, and its eigenvalue problem has fewer eigenvalues below `sigma` than that of the triangulation `other` of
     /// the same points: one of its eigenvalues is larger. All positions, all faces.
     DelaunayEigenvalue {
         /// The faces of the other triangulation.

@@ -65,8 +65,9 @@ pub(super) fn agree(setting: &Setting, ways: &[Way]) -> Finding {
     let level = setting.pick(3, 4);
     let mut every = Every::default();
     let mut worst = 0.0_f64;
-    for (condition, mass) in
-        [Condition::Dirichlet, Condition::Neumann].into_iter().flat_map(|c| ["barycentric", "consistent"].map(|m| (c, m)))
+    for (condition, mass) in [Condition::Dirichlet, Condition::Neumann]
+        .into_iter()
+        .flat_map(|c| ["barycentric", "consistent"].map(|m| (c, m)))
     {
         let found = drums(level).and_then(|domains| difference(&domains, condition, mass, setting.seed));
         worst = worst.max(found.unwrap_or(f64::INFINITY));
@@ -131,8 +132,7 @@ mod tests {
             let t = invertible(&transplantations([&DRUMS[0], &DRUMS[1]], condition)).unwrap();
             let pair = Pair::new(RIGHT, PARTS, condition).unwrap();
             let [r, _] = lifts(&pair, &t).unwrap();
-            let operators =
-                [0, 1].map(|k| cotan(&pair.drums[k].surface().unwrap().into(), "barycentric").unwrap());
+            let operators = [0, 1].map(|k| cotan(&pair.drums[k].surface().unwrap().into(), "barycentric").unwrap());
             let found = spectrum(&operators[0], &pair.kept[0], 3, 0).unwrap();
             let mut u = BTreeMap::new();
             for (&(v, w), entry) in &r {

@@ -31,7 +31,13 @@ pub type Tile = [[i64; 2]; 3];
 pub fn transplantations([a, b]: [&Gluing; 2], condition: Condition) -> Vec<Dense<Rational>> {
     let entry = |gluing: &Gluing, side: usize, s: usize, t: usize| {
         let fixed = gluing[side][s] == s && condition == Condition::Dirichlet;
-        Rational::from(if gluing[side][s] != t { 0 } else if fixed { -1 } else { 1 })
+        Rational::from(if gluing[side][s] != t {
+            0
+        } else if fixed {
+            -1
+        } else {
+            1
+        })
     };
     // One equation for each side and each place (t, s); the unknown T[i, j] is number 7i + j.
     let coefficient = |equation: usize, unknown: usize| {
@@ -82,7 +88,8 @@ impl Pair {
             (0..on_boundary.len()).filter(|&v| condition == Condition::Neumann || !on_boundary[v]).collect()
         });
         // Whole coordinates: a tile n times as large.
-        let place = |at: [usize; 3]| [0, 1].map(|axis| (0..3).map(|k| at[k] as i64 * tile[k][axis]).sum::<i64>() as f64);
+        let place =
+            |at: [usize; 3]| [0, 1].map(|axis| (0..3).map(|k| at[k] as i64 * tile[k][axis]).sum::<i64>() as f64);
         let points: Vec<[f64; 2]> = lattice(parts).into_iter().map(place).collect();
         let tile = Surface::planar(&points, &cut(parts)).ok()?;
         stiffness_in_plane::<Rational>(&tile)?;
@@ -150,9 +157,12 @@ impl Pair {
     }
 }
 
-/// The squared lengths of the sides of the boundary polygon in their order, corners with a straight angle left out. An isometry
-/// keeps them, up to where the order starts and its sense.
-pub fn outline(gluing: &Gluing, tile: Tile) -> Vec<Rational> {
+/// A side of a polygon: its squared length, and the dot product with the next one.
+pub type Side = [Rational; 2];
+
+/// The sides of the boundary polygon in their order, corners with a straight angle left out. An isometry keeps them, up to where
+/// the order starts and its sense.
+pub fn outline(gluing: &Gluing, tile: Tile) -> Vec<Side> {
     let vertices = Drum::new(gluing, tile.map(|p| p.map(|x| x as f64)), 1).vertices;
     // The lattice of one part has the corners 2, 1, 0 in this order.
     let vertex = |s: usize, corner: usize| vertices[s][2 - corner];
@@ -183,8 +193,8 @@ pub fn outline(gluing: &Gluing, tile: Tile) -> Vec<Rational> {
     merged(sides)
 }
 
-/// Squared lengths of consecutive sides, those that go straight on taken together.
-fn merged(mut sides: Vec<[Rational; 2]>) -> Vec<Rational> {
+/// Consecutive sides, those that go straight on taken together.
+fn merged(mut sides: Vec<[Rational; 2]>) -> Vec<Side> {
     let straight = |u: &[Rational; 2], v: &[Rational; 2]| {
         u[0].clone() * v[1].clone() == u[1].clone() * v[0].clone() && dot(u, v).cmp_zero().is_gt()
     };
@@ -198,15 +208,21 @@ fn merged(mut sides: Vec<[Rational; 2]>) -> Vec<Rational> {
             None => polygon.push(side),
         }
     }
-    polygon.iter().map(|side| dot(side, side).reduced()).collect()
+    let next = polygon.iter().cycle().skip(1);
+    polygon.iter().zip(next).map(|(side, next)| [dot(side, side).reduced(), dot(side, next).reduced()]).collect()
 }
 
-/// Whether two cyclic sequences are the same up to their start and sense.
-pub fn same_cycle(a: &[Rational], b: &[Rational]) -> bool {
+/// Whether two polygons have the same sides, up to where they start and their sense.
+pub fn same_outline(a: &[Side], b: &[Side]) -> bool {
     let n = a.len();
-    let place = |start: usize, k: usize, back: bool| if back { start + n - k } else { start + k };
-    let same = |start: usize, back: bool| (0..n).all(|k| a[k] == b[place(start, k, back) % n]);
-    n == b.len() && (n == 0 || (0..n).any(|start| same(start, false) || same(start, true)))
+    // Run backwards, the corner after a side is the one that was before it.
+    let back = |k: usize| [&b[(2 * n - k) % n][0], &b[(2 * n - k - 1) % n][1]];
+    let forth = |k: usize| [&b[k % n][0], &b[k % n][1]];
+    let same = |side: &Side, other: [&Rational; 2]| side[0] == *other[0] && side[1] == *other[1];
+    let turned = |start: usize| {
+        (0..n).all(|k| same(&a[k], forth(start + k))) || (0..n).all(|k| same(&a[k], back((k + start) % n)))
+    };
+    n == b.len() && (n == 0 || (0..n).any(turned))
 }
 
 fn minus(p: &[Rational; 2], q: &[Rational; 2]) -> [Rational; 2] {
@@ -285,16 +301,23 @@ mod tests {
 
     #[test]
     fn outlines_of_right_isosceles_drums_are_two_octagons() {
-        let whole = |lengths: [i64; 8]| lengths.map(Rational::from).to_vec();
         let found = DRUMS.map(|gluing| outline(&gluing, [[2, 0], [0, 2], [0, 0]]));
-        assert!(same_cycle(&found[0], &whole([4, 4, 4, 4, 8, 4, 4, 32])), "{found:?}");
-        assert!(same_cycle(&found[1], &whole([4, 16, 4, 8, 8, 4, 4, 8])), "{found:?}");
-        assert!(!same_cycle(&found[0], &found[1]));
+        for (sides, mut expected) in found.iter().zip([[4, 4, 4, 4, 8, 4, 4, 32], [4, 16, 4, 8, 8, 4, 4, 8]]) {
+            let mut lengths: Vec<Rational> = sides.iter().map(|s| s[0].clone()).collect();
+            lengths.sort();
+            expected.sort_unstable();
+            assert_eq!(lengths, expected.map(Rational::from));
+        }
+        assert!(!same_outline(&found[0], &found[1]));
+        // Started elsewhere, and as its mirror image.
+        let tile = [[2, 0], [0, 2], [0, 0]];
+        let mirrored = outline(&DRUMS[1], tile.map(|[x, y]: [i64; 2]| [-x, y]));
         let mut turned = found[1].clone();
         turned.rotate_left(3);
-        assert!(same_cycle(&turned, &found[1]));
-        turned.reverse();
-        assert!(same_cycle(&turned, &found[1]));
+        assert!(same_outline(&turned, &found[1]) && same_outline(&mirrored, &found[1]));
+        let reversed: Vec<Side> =
+            (0..8).rev().map(|k| [found[1][k][0].clone(), found[1][(k + 7) % 8][1].clone()]).collect();
+        assert!(same_outline(&reversed, &found[1]));
     }
 
     #[test]

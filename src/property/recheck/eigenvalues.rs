@@ -34,7 +34,7 @@ pub(super) fn differ(meshes: [&Mesh; 2], of: (Condition, Weighting), stated: &St
     Err(Refusal::untrue("different numbers of eigenvalues lie below σ", format!("{} of both", stated.below[0])))
 }
 
-/// A Delaunay triangulation has fewer eigenvalues below σ than another one of the same points.
+/// The only Delaunay triangulation has fewer eigenvalues below σ than another one of the same points.
 pub(super) fn more_on_delaunay(
     excerpt: &Excerpt,
     other: &[[usize; 3]],
@@ -43,7 +43,7 @@ pub(super) fn more_on_delaunay(
 ) -> Answer {
     let delaunay = Planar::read(excerpt)?;
     let other = delaunay.with(other)?;
-    delaunay.check_delaunay()?;
+    check_strictly_delaunay(&delaunay)?;
     check_fills_the_hull(&delaunay)?;
     check_fills_the_hull(&other)?;
     if let Err(answer) = check(&[delaunay, other], of, stated)? {
@@ -153,6 +153,18 @@ pub(super) fn determinant(mut a: Vec<Vec<Rational>>) -> Rational {
         }
     }
     product
+}
+
+/// Refuses a triangulation with a point, other than its corners, in or on the circle of a triangle.
+fn check_strictly_delaunay(mesh: &Planar) -> Result<(), Refusal> {
+    for &[a, b, c] in &mesh.faces {
+        let others = (0..mesh.points.len()).filter(|d| ![a, b, c].contains(d));
+        if let Some(d) = others.into_iter().find(|&d| mesh.incircle(a, b, c, d) >= dashu_int::IBig::ZERO) {
+            let found = format!("vertex {d} is in or on that of ({a}, {b}, {c})");
+            return Err(Refusal::untrue("every circle has all other points outside", found));
+        }
+    }
+    Ok(())
 }
 
 /// Refuses triangles that are no triangulation of the convex hull: the boundary runs once around with every point on its left,
