@@ -9,6 +9,7 @@ use std::collections::VecDeque;
 
 use super::poll::{Case, Every};
 use super::{Experiment, Finding, Setting};
+use crate::figure::{Axis, Chart, Figure, Mark, Series};
 use crate::property::{Evidence, Statement};
 
 /// The catalogue entry.
@@ -137,10 +138,10 @@ fn dot(a: Vector, b: Vector) -> i64 {
 fn run(setting: &Setting) -> Vec<Finding> {
     let (mut forced, mut ends, mut grows) = (Every::default(), Every::default(), Every::default());
     let (largest, shears) = (setting.pick(2, 6), setting.pick(8, 64) as i64);
-    let mut table = Vec::new();
+    let (mut table, mut lines) = (Vec::new(), Vec::new());
     for k in 1..=largest {
         let mut last = None;
-        let mut row = Vec::new();
+        let (mut row, mut line) = (Vec::new(), Vec::new());
         for shear in 0..=shears {
             let mut torus = Torus::sheared(k, shear);
             let limit = 64 * k * k * (shear as usize + 1);
@@ -158,8 +159,10 @@ fn run(setting: &Setting) -> Vec<Finding> {
             if shear > 0 && shear & (shear - 1) == 0 {
                 row.push(format!("{shear}: {}", flips.map_or("none".to_string(), |f| f.to_string())));
             }
+            line.extend(flips.map(|f| [shear as f64, f as f64]));
             last = flips;
         }
+        lines.push(Series::new(format!("{} vertices", k * k), Mark::Line, line));
         table.push(format!("{} vertices {{{}}}", k * k, row.join(", ")));
     }
     let mut forced = forced.answer(
@@ -175,6 +178,13 @@ fn run(setting: &Setting) -> Vec<Finding> {
         &cases,
     );
     grows.finding += &format!("; flips by shear: {}", table.join("; "));
+    let least = Series::new("the shear", Mark::Reference, [[0.0, 0.0], [shears as f64, shears as f64]]);
+    grows.figures.push(Figure::Chart(Chart {
+        title: "Flips to Delaunay on sheared flat tori: no bound by the number of vertices alone".into(),
+        x: Axis::linear("shear"),
+        y: Axis::linear("flips"),
+        series: lines.into_iter().chain([least]).collect(),
+    }));
     vec![
         forced,
         ends.answer(

@@ -23,6 +23,8 @@ catalogue! {
     cheeger_inequality,
     isospectral_graphs,
     isospectral_drums,
+    cheeger_sweep,
+    cheeger_on_surfaces,
     dual_faces,
     family_positivity,
     orthogonal_duals,

@@ -1,5 +1,7 @@
 //! For which twists nested triangles have no positive weights, found by bisection over rational twists.
 
+use std::collections::BTreeMap;
+
 use rayon::prelude::*;
 
 use super::super::poll::{Case, Every};
@@ -7,12 +9,18 @@ use super::super::world::certified::certified;
 use super::super::world::twisted::{Twist, degrees, faces, ratio, turns, twisted};
 use super::ENTRY;
 use crate::experiment::Finding;
+use crate::figure::{Axis, Chart, Figure, Mark, Series};
 use crate::laplacian::equilibrium::Net;
 use crate::linalg::simplex::{Farkas, stiemke};
 use crate::scalar::{Rational, Scalar};
 
 /// The sizes of a triangle over the next outer one.
-const SIZES: [(i64, i64); 3] = [(1, 5), (2, 5), (1, 2)];
+const SIZES: [(i64, i64); 5] = [(1, 5), (3, 10), (2, 5), (1, 2), (3, 5)];
+
+/// The sizes in words.
+fn sizes() -> String {
+    SIZES.map(|(n, d)| format!("{n}/{d}")).join(", ")
+}
 
 /// Whether positive weights exist at a twist, exactly; `None` where a triangle is folded.
 fn is_positive(m: &Twist, size: &Rational, nested: usize) -> Option<bool> {
@@ -40,8 +48,17 @@ struct Change {
     to: Option<bool>,
 }
 
-/// The changes along the twists k/8, each bisected `steps` times, and how many twists were decided.
-fn changes(size: &Rational, nested: usize, steps: usize) -> (Vec<Change>, usize) {
+/// What became of a family of twists.
+struct Family {
+    changes: Vec<Change>,
+    /// The twists k/8 in degrees, each with its answer where no triangle is folded.
+    grid: Vec<(f64, bool)>,
+    /// How many twists were decided in all.
+    decided: usize,
+}
+
+/// The changes along the twists k/8, each bisected `steps` times.
+fn family(size: &Rational, nested: usize, steps: usize) -> Family {
     let answer = |m: &Twist| is_positive(m, size, nested);
     let grid: Vec<(Twist, Option<bool>)> = (-40..=16)
         .map(|k| {
@@ -62,7 +79,8 @@ fn changes(size: &Rational, nested: usize, steps: usize) -> (Vec<Change>, usize)
         }
         found.push(Change { below, above, from: pair[0].1, to: pair[1].1 });
     }
-    (found, decided)
+    let grid = grid.iter().filter_map(|(m, answer)| Some((degrees(m), (*answer)?))).collect();
+    Family { changes: found, grid, decided }
 }
 
 fn word(answer: Option<bool>) -> &'static str {
@@ -106,8 +124,11 @@ fn certificates() -> Finding {
     shown.extend(other.map(|found| found.evidence));
     let mut finding = poll.answer(
         ENTRY.parts[8],
-        "Has no triangulation by nested triangles that are twisted the way of their diagonals, or not at all, positive weights? Cases: 1 to \
-         3 triangles inside, sizes 1/5, 2/5, 1/2, twists 0, 1/8, 1/4 (as √3 tan(θ/2)), where no triangle is folded.",
+        format!(
+            "Has no triangulation by nested triangles that are twisted the way of their diagonals, or not at all, positive weights? Cases: 1 to \
+         3 triangles inside, sizes {}, twists 0, 1/8, 1/4 (as √3 tan(θ/2)), where no triangle is folded.",
+            sizes()
+        ),
         "triangulations",
     );
     if finding.evidence.is_empty() {
@@ -121,12 +142,14 @@ fn certificates() -> Finding {
 fn range(steps: usize) -> Finding {
     let mut poll = Every::default();
     let (mut ranges, mut decided) = (Vec::new(), 0);
+    let mut dots: BTreeMap<(usize, bool), Vec<[f64; 2]>> = BTreeMap::new();
     let families: Vec<(usize, (i64, i64))> = [1, 2].iter().flat_map(|&n| SIZES.map(|size| (n, size))).collect();
-    let decide = |&(nested, (n, d)): &(usize, (i64, i64))| changes(&ratio(n, d), nested, steps);
+    let decide = |&(nested, (n, d)): &(usize, (i64, i64))| family(&ratio(n, d), nested, steps);
     let results: Vec<_> = families.par_iter().map(decide).collect();
-    for (&(nested, (n, d)), (found, count)) in families.iter().zip(&results) {
-        decided += count;
+    for (&(nested, (n, d)), found) in families.iter().zip(&results) {
+        decided += found.decided;
         let changes: Vec<String> = found
+            .changes
             .iter()
             .map(|c| {
                 let (from, to) = (word(c.from), word(c.to));
@@ -134,19 +157,35 @@ fn range(steps: usize) -> Finding {
             })
             .collect();
         ranges.push(format!("{nested} of size {n}/{d}: {}", changes.join("; ")));
+        for &(twist, answer) in &found.grid {
+            dots.entry((nested, answer)).or_default().push([twist, n as f64 / d as f64]);
+        }
         // From 0 on there are none, whatever the number and the size, up to where a triangle folds.
-        let none = found.iter().all(|c| c.to != Some(true) || c.above < Rational::ZERO);
+        let none = found.changes.iter().all(|c| c.to != Some(true) || c.above < Rational::ZERO);
         poll.ask((!none).then(|| Case::told(format!("{nested} triangles of size {n}/{d}"))));
     }
     let mut finding = poll.answer(
         ENTRY.parts[9],
         format!(
             "For which twists have nested triangles no positive weights: for all from 0 up to the fold? Cases: 1 and 2 triangles inside, \
-             three sizes, twists √3 tan(θ/2) = k/8 and {steps} bisections of every change, decided by the exact simplex method."
+             sizes {}, twists √3 tan(θ/2) = k/8 and {steps} bisections of every change, decided by the exact simplex method.",
+            sizes()
         ),
         "families",
     );
     finding.finding += &format!("; {decided} twists decided; {}", ranges.join(". "));
+    for nested in [1, 2] {
+        let series = |answer: bool| {
+            let name = if answer { "positive weights" } else { "none" };
+            Series::new(name, Mark::Dots, dots.get(&(nested, answer)).cloned().unwrap_or_default())
+        };
+        finding.figures.push(Figure::Chart(Chart {
+            title: format!("Which twists have positive weights, with {nested} inside; elsewhere a triangle is folded"),
+            x: Axis::linear("twist in degrees"),
+            y: Axis::linear("size of the next triangle inside"),
+            series: [true, false].map(series).into(),
+        }));
+    }
     finding
 }
 
@@ -162,7 +201,7 @@ mod tests {
             assert_eq!(is_positive(&ratio(n, d), &size, 1), Some(expected), "{n}/{d}");
         }
         assert_eq!(is_positive(&ratio(3, 2), &size, 1), None);
-        let (found, _) = changes(&size, 1, 8);
+        let found = family(&size, 1, 8).changes;
         let words: Vec<_> = found.iter().map(|c| (c.from, c.to)).collect();
         let (yes, no) = (Some(true), Some(false));
         assert_eq!(words, [(None, no), (no, yes), (yes, no), (no, None)]);

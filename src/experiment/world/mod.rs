@@ -1,6 +1,7 @@
 //! Small worlds, enumerated whole: every graph with few vertices, every triangulation of few lattice points.
 
 pub mod certified;
+pub mod cuts;
 pub mod descent;
 pub mod discs;
 pub mod drums;

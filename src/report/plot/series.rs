@@ -18,8 +18,11 @@ const ROWS: usize = 14;
 #[derive(Clone, Debug)]
 pub(super) struct Plot {
     axes: [Scale; 2],
-    series: Vec<(String, Vec<(f64, f64)>, Mark)>,
+    series: Vec<Line>,
 }
+
+/// A series in drawing coordinates, with its name and its mark.
+type Line = (String, Vec<(f64, f64)>, Mark);
 
 /// An axis in drawing coordinates.
 #[derive(Clone, Debug)]

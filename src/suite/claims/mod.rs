@@ -69,6 +69,7 @@ pub enum ClaimError {
 /// The claims that come with the program.
 pub static BUILT_IN: &[(&str, &str)] = &[
     ("taxonomy", include_str!("../../../suites/claims/taxonomy.toml")),
+    ("cheeger", include_str!("../../../suites/claims/cheeger.toml")),
     ("graphs", include_str!("../../../suites/claims/graphs.toml")),
     ("discrete", include_str!("../../../suites/claims/discrete.toml")),
     ("coordinates", include_str!("../../../suites/claims/coordinates.toml")),
