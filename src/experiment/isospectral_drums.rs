@@ -174,7 +174,12 @@ fn certificate(way: &Way) -> Option<Evidence> {
     let [r, s] = lifts(&pair, &way.t)?;
     let [first, second] = meshes(PARTS);
     let (matrix, dual) = (written(&r), written(&s));
-    Some(Evidence::bare(Statement::Transplantation { first, second, condition: way.condition, matrix, dual }))
+    let scale = Rational::from((PARTS * PARTS) as u64);
+    let whole = |side: &Side| u64::try_from((side[0].clone() * scale.clone()).floor()).ok();
+    let lengths = |k: usize| outline(&DRUMS[k], RIGHT).iter().map(whole).collect::<Option<Vec<u64>>>();
+    let outlines = [lengths(0)?, lengths(1)?];
+    let condition = way.condition;
+    Some(Evidence::bare(Statement::Transplantation { first, second, condition, matrix, dual, outlines }))
 }
 
 /// Both octagons with whole coordinates.

@@ -523,6 +523,8 @@ pub enum Statement {
         matrix: Vec<(usize, usize, Fraction)>,
         /// The entries of S that are not zero.
         dual: Vec<(usize, usize, Fraction)>,
+        /// The squared lengths of the sides of both polygons in their order, wherever that starts: no congruence takes one to the other.
+        outlines: [Vec<u64>; 2],
     },
     /// A witness against isospectrality: the cotangent eigenvalue problems of two triangulated polygons have different numbers of
     /// eigenvalues below `sigma`.

@@ -318,6 +318,7 @@ pub fn triangulations() -> Vec<Statement> {
             condition: Condition::Neumann,
             matrix: vec![(0, 0, Fraction::text("1"))],
             dual: vec![(0, 0, Fraction::text("1"))],
+            outlines: [vec![1, 2, 1], vec![1, 2, 1]],
         },
         Statement::SpectraDiffer {
             first: mesh(),

@@ -33,8 +33,8 @@ pub(super) fn decide(evidence: &Evidence) -> Option<Answer> {
         Statement::Cospectral { vertices, first, second, normalised, polynomial } => {
             Some(cospectral::decide(*vertices, [first, second], *normalised, polynomial))
         }
-        Statement::Transplantation { first, second, condition, matrix, dual } => {
-            Some(transplantation::decide([first, second], *condition, [matrix, dual]))
+        Statement::Transplantation { first, second, condition, matrix, dual, outlines } => {
+            Some(transplantation::decide([first, second], *condition, [matrix, dual], outlines))
         }
         Statement::SpectraDiffer { first, second, condition, mass, sigma, below, determinants } => {
             let stated = eigenvalues::Stated { sigma, below: *below, determinants };

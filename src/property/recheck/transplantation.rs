@@ -18,7 +18,12 @@ const LARGEST: usize = 80;
 type Entries = [(usize, usize, Fraction)];
 
 /// The stiffness and both masses are intertwined, R is invertible, the polygons are not congruent.
-pub(super) fn decide(meshes: [&Mesh; 2], condition: Condition, [matrix, dual]: [&Entries; 2]) -> Answer {
+pub(super) fn decide(
+    meshes: [&Mesh; 2],
+    condition: Condition,
+    [matrix, dual]: [&Entries; 2],
+    outlines: &[Vec<u64>; 2],
+) -> Answer {
     let [a, b] = [Planar::of(meshes[0])?, Planar::of(meshes[1])?];
     let rows = [kept(&a, condition), kept(&b, condition)];
     let n = rows[0].len();
@@ -48,7 +53,18 @@ pub(super) fn decide(meshes: [&Mesh; 2], condition: Condition, [matrix, dual]: [
     if determinant(r).cmp_zero() == Ordering::Equal {
         return Err(Refusal::untrue("R is invertible", "its determinant is zero"));
     }
-    check_not_congruent(&outline(&a)?, &outline(&b)?)?;
+    let found = [outline(&a)?, outline(&b)?];
+    for (stated, found) in outlines.iter().zip(&found) {
+        if !same_cycle(&stated.iter().map(|x| IBig::from(*x)).collect::<Vec<_>>(), found) {
+            return Err(Refusal::untrue(
+                format!("the polygon has the squared lengths {stated:?}"),
+                format!("{found:?}"),
+            ));
+        }
+    }
+    if same_cycle(&found[0], &found[1]) {
+        return Err(Refusal::untrue("the lengths of the sides tell the polygons apart", "they do not"));
+    }
     Ok(Rechecked::Exact)
 }
 
@@ -115,15 +131,12 @@ fn outline(mesh: &Planar) -> Result<Vec<IBig>, Refusal> {
     Ok((0..corners.len()).map(length).collect())
 }
 
-/// Congruent polygons have the same lengths in the same cyclic order, or in the opposite one.
-fn check_not_congruent(a: &[IBig], b: &[IBig]) -> Result<(), Refusal> {
+/// Whether two lists are the same up to where they start and their sense, as those of congruent polygons are.
+fn same_cycle(a: &[IBig], b: &[IBig]) -> bool {
     let n = a.len();
     let same = |start: usize, back: bool| {
         let place = |k: usize| if back { start + n - k } else { start + k };
         (0..n).all(|k| a[k] == b[place(k) % n])
     };
-    if n == b.len() && (0..n).any(|start| same(start, false) || same(start, true)) {
-        return Err(Refusal::untrue("the lengths of the sides tell the polygons apart", "they do not"));
-    }
-    Ok(())
+    n == b.len() && (0..n).any(|start| same(start, false) || same(start, true))
 }
