@@ -4,6 +4,7 @@ pub mod certified;
 pub mod cuts;
 pub mod descent;
 pub mod discs;
+pub mod drums;
 pub mod excerpt;
 pub mod five_points;
 pub mod graphs;

@@ -76,6 +76,7 @@ pub static BUILT_IN: &[(&str, &str)] = &[
     ("coordinates", include_str!("../../../suites/claims/coordinates.toml")),
     ("no_free_lunch", include_str!("../../../suites/claims/no_free_lunch.toml")),
     ("triangulations", include_str!("../../../suites/claims/triangulations.toml")),
+    ("isospectral", include_str!("../../../suites/claims/isospectral.toml")),
 ];
 
 /// Every claim that comes with the program, in the order of the files.
