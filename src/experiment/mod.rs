@@ -74,9 +74,9 @@ pub struct Setting {
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 #[serde(rename_all = "kebab-case")]
 pub enum Effort {
-    /// The smallest worlds and few random cases: all experiments together within two seconds.
+    /// The smallest worlds and few random cases: all experiments together take some five seconds.
     Smoke,
-    /// Larger worlds and more random cases: all experiments together within six seconds.
+    /// Larger worlds and more random cases: all experiments together take some fifteen seconds.
     #[default]
     Full,
 }
