@@ -15,6 +15,7 @@
 //! | `intrinsic` | validated surface with its connectivity → flips, L and barycentric M |
 //! | `intrinsic+topology` | positions and faces → validated surface, connectivity, flips, L and barycentric M |
 //! | `verdicts` | domain, L and M as they come from a file → every structural verdict; one part each |
+//! | `spectrum:K` | L and M → the first K eigenpairs of cotan, factorisations and the inertia count included |
 //!
 //! The number of threads is that of `RAYON_NUM_THREADS`.
 
@@ -23,6 +24,8 @@ use std::io::{BufRead, Write};
 use std::path::Path;
 use std::time::Instant;
 
+use lapjury::domain::Faces;
+use lapjury::linalg::spectrum::lowest;
 use lapjury::operator::Provenance;
 use lapjury::{Domain, Mass, MassKind, Operator, Surface, Trial, laplacian, property};
 
@@ -70,10 +73,14 @@ enum Task {
     Build { id: &'static str, domain: Domain },
     FromFaces { id: &'static str, positions: Vec<[f64; 3]>, faces: Vec<[usize; 3]> },
     Verdicts { domain: Domain, operator: Box<Operator> },
+    Spectrum { count: usize, operator: Box<Operator> },
 }
 
 impl Task {
     fn prepare(name: &str, domain: Domain) -> Outcome<Self> {
+        if let Some(count) = name.strip_prefix("spectrum:") {
+            return Ok(Task::Spectrum { count: count.parse()?, operator: Box::new(build("cotan", &domain)?) });
+        }
         let (id, with_topology) = match name {
             "cotan" => ("cotan", false),
             "cotan+topology" => ("cotan", true),
@@ -104,13 +111,23 @@ impl Task {
                 Ok(timed)
             }
             Task::FromFaces { id, positions, faces } => {
-                let positions = positions.clone();
+                let (positions, faces) = (positions.clone(), Faces::from(faces.clone()));
                 let clock = Clock::start();
-                let domain = Domain::from(Surface::triangles(positions, faces)?);
+                let domain = Domain::from(Surface::from_faces(positions, faces)?);
                 let topology = clock.0.elapsed().as_secs_f64();
                 let operator = build(id, &domain)?;
                 let timed = clock.stop(vec![("topology", topology)]);
                 drop(operator);
+                Ok(timed)
+            }
+            Task::Spectrum { count, operator } => {
+                let mass = operator.mass().ok_or("no mass")?.matrix();
+                let clock = Clock::start();
+                let spectrum = lowest(operator.stiffness(), mass, *count, 0)?;
+                let timed = clock.stop(Vec::new());
+                if !spectrum.closure.certified {
+                    return Err("the inertia count does not close the spectrum".into());
+                }
                 Ok(timed)
             }
             Task::Verdicts { domain, operator } => {

@@ -224,3 +224,19 @@ fn a_cotangent_below_the_normal_numbers_keeps_its_sign() {
         assert_eq!(cotangent::half_sum(&[found], std::iter::empty), sign * f64::MIN_POSITIVE / 2.0);
     }
 }
+
+#[test]
+fn many_triangles_side_by_side_have_the_bits_of_each_alone() {
+    let mut r = Stream::new(3, "side by side");
+    // Counts that leave a rest; families in turn, so that slow triangles stand beside quick ones.
+    for count in [0, 1, 31, 32, 33, 4096, 4099] {
+        let all: Vec<[Point; 3]> = (0..count).map(|k| triangle(k % FAMILIES.len(), &mut r)).collect();
+        let mut found = vec![[0.0; 4]; count];
+        cotangent::of_triangles(|k| all[k], &mut found);
+        for (t, found) in all.iter().zip(&found) {
+            let alone = cotangent::of_triangle(vectors(*t));
+            let [x, y, z] = alone.values;
+            assert_eq!(found.map(f64::to_bits), [x, y, z, alone.doubled_area].map(f64::to_bits), "{t:?}");
+        }
+    }
+}

@@ -50,12 +50,15 @@ struct Test {
 
 fn claims() -> Vec<Claim> {
     [
+        include_str!("../suites/claims/cheeger.toml"),
+        include_str!("../suites/claims/smooth.toml"),
         include_str!("../suites/claims/graphs.toml"),
         include_str!("../suites/claims/discrete.toml"),
         include_str!("../suites/claims/no_free_lunch.toml"),
         include_str!("../suites/claims/taxonomy.toml"),
         include_str!("../suites/claims/coordinates.toml"),
         include_str!("../suites/claims/triangulations.toml"),
+        include_str!("../suites/claims/isospectral.toml"),
     ]
     .into_iter()
     .flat_map(|text| toml::from_str::<Claims>(text).unwrap().claim)
@@ -76,7 +79,7 @@ fn smoke() -> &'static BTreeMap<(&'static str, &'static str), Finding> {
 }
 
 /// Experiments that compute with rounding: all others decide exactly.
-const MEASURED: [&str; 0] = [];
+const MEASURED: [&str; 4] = ["cheeger-on-surfaces", "cheeger-sweep", "isospectral-drums", "metric-from-cotangents"];
 
 #[test]
 fn every_experiment_answers_its_parts_in_their_order() {
@@ -118,7 +121,7 @@ fn the_claims_are_complete_and_well_formed() {
     let claims = claims();
     let mut ids: Vec<&str> = claims.iter().map(|c| c.id.as_str()).collect();
     ids.sort_unstable();
-    let expected = "c29 c30 c31 c32 c33 c34 c35 c36 c37 c38 c39 c40 c41 c42 c43 c44 c49 c50 c67 c68 c70 c71 c72 c73 c74 c75 c76 \
+    let expected = "c01 c02 c03 c04 c05 c06 c07 c09 c11 c18 c19 c20 c21 c22 c23 c27 c28 c29 c30 c31 c32 c33 c34 c35 c36 c37 c38 c39 c40 c41 c42 c43 c44 c46 c47 c48 c49 c50 c51 c52 c67 c68 c70 c71 c72 c73 c74 c75 c76 \
                     c77 c78 c79 c80 c81 c82 c83 c84 c85 c86 c87 c88 c89 c90 c91 c92 c93 t01";
     assert_eq!(ids, expected.split(' ').collect::<Vec<_>>());
     for claim in &claims {
@@ -182,7 +185,9 @@ fn every_witness_survives_an_independent_look() {
         ["asymmetry", "below-cheeger", "far", "moment", "negative-energy", "overshoot", "singular", "weight"];
     let of_weights = ["equilibrium", "lift", "motion", "no-lift"];
     let of_triangulations = ["extension", "flips", "not-embedded", "not-minimal", "torus"];
-    assert_eq!(kinds, of_matrices.into_iter().chain(of_weights).chain(of_triangulations).collect());
+    let of_spectra = ["cospectral", "delaunay-eigenvalue", "spectra-differ", "transplantation"];
+    let all = of_matrices.into_iter().chain(of_weights).chain(of_triangulations).chain(of_spectra);
+    assert_eq!(kinds, all.collect());
 }
 
 #[test]
@@ -230,6 +235,7 @@ fn the_triangulations_found_have_the_property_they_were_searched_for() {
 fn spoilt(evidence: &Evidence) -> Evidence {
     let mut spoilt = evidence.clone();
     triangulations::spoil(&mut spoilt);
+    spectra::spoil(&mut spoilt);
     for row in &mut spoilt.excerpt.rows {
         match evidence.statement {
             Statement::Asymmetry { .. } | Statement::FarEntry { .. } => row.entries.retain(|e| e.0 == row.row),
@@ -345,14 +351,20 @@ fn look(evidence: &Evidence) -> Result<&'static str, String> {
         Statement::Lift { .. }
         | Statement::Equilibrium { .. }
         | Statement::Motion { .. }
-        | Statement::NoLift { .. } => match recheck::from_excerpt(evidence) {
+        | Statement::NoLift { .. }
+        | Statement::Transplantation { .. } => match recheck::from_excerpt(evidence) {
             Ok(Rechecked::Exact) => Ok(recheck::kind(&evidence.statement)),
             other => Err(format!("{other:?}")),
         },
+        Statement::Cospectral { .. } | Statement::SpectraDiffer { .. } | Statement::DelaunayEigenvalue { .. } => {
+            spectra::look(evidence)
+        }
         _ => triangulations::look(evidence),
     }
 }
 
+#[path = "look/spectra.rs"]
+mod spectra;
 #[path = "look/triangulations.rs"]
 mod triangulations;
 

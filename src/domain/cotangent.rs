@@ -35,7 +35,7 @@ mod rational;
 use super::geometry::{Vec3, doubled_area_in_space};
 pub use super::twofold::Twofold;
 use super::twofold::U;
-use heads::Heads;
+use heads::{Heads, SIDE_BY_SIDE};
 
 /// How a cotangent was computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -69,6 +69,31 @@ pub fn of_triangle(corners: [Vec3; 3]) -> Cotangents {
         return Cotangents { values, doubled_area: heads.doubled_area, ways: [Way::Heads; 3] };
     }
     carefully(corners, &points, &heads)
+}
+
+/// The cotangents and twice the area of many triangles, bit for bit those of [`of_triangle`], as long as the list to fill:
+/// `corners` gives the triangle with a number in it.
+pub fn of_triangles(corners: impl Fn(usize) -> [[f64; 3]; 3], fill: &mut [[f64; 4]]) {
+    let careful = |k: usize| {
+        let found = of_triangle(corners(k).map(Vec3::from));
+        [found.values[0], found.values[1], found.values[2], found.doubled_area]
+    };
+    let (mut coordinates, mut suffices) = ([[0.0; 9]; SIDE_BY_SIDE], [0.0; SIDE_BY_SIDE]);
+    let (blocks, rest) = fill.as_chunks_mut::<SIDE_BY_SIDE>();
+    let first_of_rest = SIDE_BY_SIDE * blocks.len();
+    for (block, found) in blocks.iter_mut().enumerate() {
+        for (at, nine) in coordinates.iter_mut().enumerate() {
+            let [p, q, r] = corners(SIDE_BY_SIDE * block + at);
+            *nine = [p[0], p[1], p[2], q[0], q[1], q[2], r[0], r[1], r[2]];
+        }
+        heads::many(&coordinates, found, &mut suffices);
+        for at in (0..SIDE_BY_SIDE).filter(|&at| suffices[at] == 0.0) {
+            found[at] = careful(SIDE_BY_SIDE * block + at);
+        }
+    }
+    for (at, found) in rest.iter_mut().enumerate() {
+        *found = careful(first_of_rest + at);
+    }
 }
 
 #[cold]

@@ -66,6 +66,13 @@ impl Faces {
     }
 }
 
+impl From<Vec<[usize; 3]>> for Faces {
+    /// Triangles; the list is taken over, not copied.
+    fn from(triangles: Vec<[usize; 3]>) -> Self {
+        Faces { corners: triangles.into_flattened(), offsets: Vec::new() }
+    }
+}
+
 impl Index<usize> for Faces {
     type Output = [usize];
 
@@ -163,6 +170,7 @@ mod tests {
         let triangles = Faces::triangles(&[[0, 1, 2], [0, 2, 3]]);
         assert_eq!(triangles, [vec![0, 1, 2], vec![0, 2, 3]].iter().collect::<Faces>());
         let mixed: Faces = [vec![0, 1, 2], vec![0, 2, 3, 4]].iter().collect();
+        assert_eq!(triangles, Faces::from(vec![[0, 1, 2], [0, 2, 3]]));
         assert!(triangles.are_triangles() && !mixed.are_triangles());
         assert_eq!((mixed.len(), &mixed[1], mixed.get(2)), (2, &[0, 2, 3, 4][..], None));
         assert_eq!(mixed.to_vec(), [vec![0, 1, 2], vec![0, 2, 3, 4]]);

@@ -25,25 +25,20 @@
 
 mod flips;
 
-use rayon::prelude::*;
-
 use super::Surface;
 use super::geometry::{self, Vec3};
 
-/// "No half-edge": the outside of a boundary edge; no face.
-const NONE: usize = usize::MAX;
-
-/// How many triangles a thread takes at a time.
-const BLOCK: usize = 1 << 12;
+/// "No half-edge": the outside of a boundary edge; no face. The connectivity of a surface numbers no more than half as many.
+const NONE: u32 = u32::MAX;
 
 /// A triangulation of a surface by intrinsic edges. Edge e has the half-edges 2e and 2e + 1, running opposite ways.
 #[derive(Clone, Debug)]
 pub struct IntrinsicTriangulation<'a> {
     surface: &'a Surface,
     plane: Option<[usize; 2]>,
-    origin: Vec<usize>,
-    next: Vec<usize>,
-    face: Vec<usize>,
+    /// Whether the first triangle of a planar surface, and so every one, is counter-clockwise there.
+    counter_clockwise: bool,
+    half_edges: Vec<HalfEdge>,
     length: Vec<f64>,
     faces: Vec<Face>,
     /// Of each edge, whether a triangle beside it was touched by a flip.
@@ -51,15 +46,31 @@ pub struct IntrinsicTriangulation<'a> {
     flips: usize,
 }
 
+/// A side of an edge, with all that a walk round a triangle asks for in one place. Twelve bytes.
+#[derive(Clone, Copy, Debug)]
+struct HalfEdge {
+    /// The vertex where it starts.
+    origin: u32,
+    /// The half-edge that follows it round its triangle.
+    next: u32,
+    /// Its triangle.
+    face: u32,
+}
+
+impl HalfEdge {
+    /// One without a triangle.
+    const OUTSIDE: HalfEdge = HalfEdge { origin: NONE, next: NONE, face: NONE };
+}
+
 #[derive(Clone, Copy, Debug)]
 struct Face {
-    /// One of its half-edges.
-    first: usize,
     doubled_area: f64,
+    /// One of its half-edges.
+    first: u32,
+    /// The face of the surface that it is; [`NONE`] once a flip has touched it.
+    source: u32,
     /// Whether it is the triangle that its corners span in space.
     straight: bool,
-    /// The face of the surface that it is; [`NONE`] once a flip has touched it.
-    source: usize,
 }
 
 /// Why a surface has no intrinsic triangulation.
@@ -101,41 +112,47 @@ impl<'a> IntrinsicTriangulation<'a> {
     /// # Errors
     /// A face that is not a triangle, an edge with more than two faces, faces that disagree in orientation.
     pub fn new(surface: &'a Surface, keep: impl Fn(usize) -> bool) -> Result<Self, IntrinsicError> {
+        IntrinsicTriangulation::with_areas(surface, |face| {
+            keep(face).then(|| surface.triangle(face).map_or(0.0, |t| area_in_space(t.map(|v| surface.point(v)))))
+        })
+    }
+
+    /// The same where twice the area of each face is known: `doubled_area` has it of those that are admitted.
+    ///
+    /// # Errors
+    /// As [`new`](IntrinsicTriangulation::new).
+    pub fn with_areas(
+        surface: &'a Surface,
+        doubled_area: impl Fn(usize) -> Option<f64>,
+    ) -> Result<Self, IntrinsicError> {
         let edges = surface.topology().edges();
         let mut result = IntrinsicTriangulation {
             surface,
             plane: surface.plane(),
-            origin: vec![NONE; 2 * edges.len()],
-            next: vec![NONE; 2 * edges.len()],
-            face: vec![NONE; 2 * edges.len()],
+            counter_clockwise: false,
+            half_edges: vec![HalfEdge::OUTSIDE; 2 * edges.len()],
             length: edges.iter().map(|&[a, b]| distance(surface.point(a), surface.point(b))).collect(),
             faces: Vec::with_capacity(surface.faces().len()),
             touched: vec![false; edges.len()],
             flips: 0,
         };
-        let rings = result.take_half_edges(keep)?;
-        let kept = |source: &usize| rings[*source][0] != NONE;
-        let kept: Vec<usize> = (0..rings.len()).filter(kept).collect();
-        let area = |at: usize| {
-            let ring = rings[kept[at]];
-            // Opposite the corner where a half-edge starts is the half-edge that follows.
-            let lengths = [1, 2, 0].map(|k: usize| result.length[ring[k] / 2]);
-            area_with_lengths(ring.map(|h| surface.point(result.origin[h])), lengths)
-        };
-        let areas: Vec<f64> = match kept.len() {
-            few @ ..BLOCK => (0..few).map(area).collect(),
-            many => (0..many).into_par_iter().with_min_len(BLOCK).map(area).collect(),
-        };
-        for (source, area) in kept.into_iter().zip(areas) {
-            result.push_face(rings[source], area, source);
+        let rings = result.take_half_edges(|face| doubled_area(face).is_some())?;
+        for (source, ring) in rings.into_iter().enumerate() {
+            if let Some(area) = doubled_area(source) {
+                result.push_face(ring, area, source);
+            }
+        }
+        if let (Some(axes), false) = (result.plane, result.faces.is_empty()) {
+            let [a, b, c] = result.corners(0).map(|v| axes.map(|k| surface.positions()[v][k]));
+            result.counter_clockwise = geometry::orient2d(a, b, c).is_gt();
         }
         Ok(result)
     }
 
     /// Sets the origin of each half-edge; returns those around each face that is kept.
-    fn take_half_edges(&mut self, keep: impl Fn(usize) -> bool) -> Result<Vec<[usize; 3]>, IntrinsicError> {
+    fn take_half_edges(&mut self, keep: impl Fn(usize) -> bool) -> Result<Vec<[u32; 3]>, IntrinsicError> {
         let topology = self.surface.topology();
-        let mut rings = vec![[NONE; 3]; self.surface.faces().len()];
+        let mut rings = vec![[0; 3]; self.surface.faces().len()];
         for (e, &[a, b]) in topology.edges().iter().enumerate() {
             let sides = || topology.sides(e).iter().filter(|side| keep(side.face()));
             if sides().count() > 2 {
@@ -147,22 +164,37 @@ impl<'a> IntrinsicTriangulation<'a> {
                     return Err(IntrinsicError::NotATriangle { face: side.face(), corners });
                 }
                 let h = 2 * e + usize::from(!side.forward());
-                if self.origin[h] != NONE {
+                if self.half_edges[h].origin != NONE {
                     return Err(IntrinsicError::NotOrientable { a, b });
                 }
-                self.origin[h] = if side.forward() { a } else { b };
-                rings[side.face()][side.corner()] = h;
+                self.half_edges[h].origin = if side.forward() { a } else { b } as u32;
+                rings[side.face()][side.corner()] = h as u32;
             }
         }
         Ok(rings)
     }
 
-    fn push_face(&mut self, ring: [usize; 3], doubled_area: f64, source: usize) {
+    fn push_face(&mut self, ring: [u32; 3], doubled_area: f64, source: usize) {
         for k in 0..3 {
-            self.next[ring[k]] = ring[(k + 1) % 3];
-            self.face[ring[k]] = self.faces.len();
+            let half_edge = &mut self.half_edges[ring[k] as usize];
+            (half_edge.next, half_edge.face) = (ring[(k + 1) % 3], self.faces.len() as u32);
         }
-        self.faces.push(Face { first: ring[0], doubled_area, straight: true, source });
+        self.faces.push(Face { doubled_area, first: ring[0], source: source as u32, straight: true });
+    }
+
+    /// Where a half-edge starts.
+    fn origin(&self, half_edge: usize) -> usize {
+        self.half_edges[half_edge].origin as usize
+    }
+
+    /// The half-edge that follows one round its triangle.
+    fn next(&self, half_edge: usize) -> usize {
+        self.half_edges[half_edge].next as usize
+    }
+
+    /// Whether a half-edge has a triangle.
+    fn is_inside(&self, half_edge: usize) -> bool {
+        self.half_edges[half_edge].face != NONE
     }
 
     /// The surface.
@@ -182,16 +214,16 @@ impl<'a> IntrinsicTriangulation<'a> {
 
     /// The half-edges of an edge that have a triangle: two inside, one on the boundary, none where no face was kept.
     pub fn sides(&self, edge: usize) -> impl Iterator<Item = usize> + Clone + '_ {
-        [2 * edge, 2 * edge + 1].into_iter().filter(|&h| self.face[h] != NONE)
+        [2 * edge, 2 * edge + 1].into_iter().filter(|&h| self.is_inside(h))
     }
 
     /// The ends of an edge, equal for a loop; `None` for an edge of the surface none of whose faces was kept.
     pub fn ends(&self, edge: usize) -> Option<[usize; 2]> {
         let (h, t) = (2 * edge, 2 * edge + 1);
-        match (self.face[h] != NONE, self.face[t] != NONE) {
-            (true, true) => Some([self.origin[h], self.origin[t]]),
-            (true, false) => Some([self.origin[h], self.origin[self.next[h]]]),
-            (false, true) => Some([self.origin[t], self.origin[self.next[t]]]),
+        match (self.is_inside(h), self.is_inside(t)) {
+            (true, true) => Some([self.origin(h), self.origin(t)]),
+            (true, false) => Some([self.origin(h), self.origin(self.next(h))]),
+            (false, true) => Some([self.origin(t), self.origin(self.next(t))]),
             (false, false) => None,
         }
     }
@@ -208,23 +240,23 @@ impl<'a> IntrinsicTriangulation<'a> {
 
     /// The triangle to the left of a half-edge that has one.
     pub fn face(&self, half_edge: usize) -> usize {
-        self.face[half_edge]
+        self.half_edges[half_edge].face as usize
     }
 
     /// The three half-edges of a triangle in order; half-edge h belongs to edge h/2.
     pub fn half_edges(&self, face: usize) -> [usize; 3] {
-        let h = self.faces[face].first;
-        [h, self.next[h], self.next[self.next[h]]]
+        let h = self.faces[face].first as usize;
+        [h, self.next(h), self.next(self.next(h))]
     }
 
     /// The corners of a triangle: where its half-edges start.
     pub fn corners(&self, face: usize) -> [usize; 3] {
-        self.half_edges(face).map(|h| self.origin[h])
+        self.half_edges(face).map(|h| self.origin(h))
     }
 
     /// The vertex opposite a half-edge that has a triangle.
     pub fn apex(&self, half_edge: usize) -> usize {
-        self.origin[self.next[self.next[half_edge]]]
+        self.origin(self.next(self.next(half_edge)))
     }
 
     /// Twice the area of a triangle.
@@ -239,7 +271,7 @@ impl<'a> IntrinsicTriangulation<'a> {
 
     /// The face of the surface that a triangle is, corner for corner; `None` once a flip has touched it.
     pub fn source(&self, face: usize) -> Option<usize> {
-        Some(self.faces[face].source).filter(|&source| source != NONE)
+        Some(self.faces[face].source).filter(|&source| source != NONE).map(|source| source as usize)
     }
 
     /// Whether the surface lies in a coordinate plane: then every triangle stays straight and every decision is exact.
@@ -252,29 +284,29 @@ impl<'a> IntrinsicTriangulation<'a> {
     /// Its absolute error is below `8u (a² + b² + c²)/2A` plus what earlier flips have left in lengths and area.
     pub fn cotangent_opposite(&self, half_edge: usize) -> f64 {
         let [a, b, c] = self.squares(half_edge);
-        0.5 * (b + c - a) / self.doubled_area(self.face[half_edge])
+        0.5 * (b + c - a) / self.doubled_area(self.face(half_edge))
     }
 
     /// The squared lengths of the side of a half-edge and of the two that follow it.
     fn squares(&self, half_edge: usize) -> [f64; 3] {
-        let (n, p) = (self.next[half_edge], self.next[self.next[half_edge]]);
+        let (n, p) = (self.next(half_edge), self.next(self.next(half_edge)));
         [half_edge, n, p].map(|h| self.length[h / 2] * self.length[h / 2])
     }
 }
 
 fn distance(p: Vec3, q: Vec3) -> f64 {
     let difference = q - p;
-    let largest = difference.amax();
-    if largest == 0.0 { 0.0 } else { (difference / largest).norm() * largest }
+    match difference.norm_squared() {
+        square if (1e-280..1e300).contains(&square) => square.sqrt(),
+        // Scaled where the square would lose digits below the range, or leave it.
+        _ if difference.amax() > 0.0 => (difference / difference.amax()).norm() * difference.amax(),
+        _ => 0.0,
+    }
 }
 
+/// Twice the area.
 fn area_in_space(corners: [Vec3; 3]) -> f64 {
-    area_with_lengths(corners, [0, 1, 2].map(|k: usize| distance(corners[(k + 1) % 3], corners[(k + 2) % 3])))
-}
-
-/// Twice the area; the lengths are those opposite the corners.
-fn area_with_lengths(corners: [Vec3; 3], lengths: [f64; 3]) -> f64 {
-    let length = |k: usize| lengths[k];
+    let length = |k: usize| distance(corners[(k + 1) % 3], corners[(k + 2) % 3]);
     // Most accurate from the corner opposite the longest side, whose sine is the largest.
     let apex = (1..3).fold(0, |best, k| if length(k) > length(best) { k } else { best });
     geometry::doubled_area_in_space(corners[apex], corners[(apex + 1) % 3], corners[(apex + 2) % 3])

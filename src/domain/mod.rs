@@ -11,6 +11,7 @@ mod facts;
 pub mod flip;
 pub mod geometry;
 mod graph;
+pub mod incidence;
 pub mod intrinsic;
 mod points;
 mod surface;

@@ -1,6 +1,6 @@
 //! Triangle and polygon meshes in the plane or in space.
 
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use super::geometry::{self, Vec3};
 use super::topology::{self, Orientation, Topology};
@@ -20,7 +20,7 @@ use crate::scalar::Scalar;
 pub struct Surface {
     positions: Vec<[f64; 3]>,
     faces: Faces,
-    topology: Topology,
+    topology: Arc<Topology>,
     orientation: Orientation,
     notices: Vec<String>,
     /// Found when first asked for.
@@ -67,6 +67,7 @@ impl Surface {
         if !orientation.orientable {
             notices.push("some component cannot be oriented; its faces are left as they came".into());
         }
+        let topology = Arc::new(topology);
         Ok(Surface { positions, faces, topology, orientation, notices, plane: OnceLock::new() })
     }
 
@@ -86,7 +87,7 @@ impl Surface {
         Surface::triangles(positions.iter().map(|p| [p[0], p[1], 0.0]).collect(), faces)
     }
 
-    /// The same faces with their vertices elsewhere. Cost: O(n), and a copy of the connectivity.
+    /// The same faces with their vertices elsewhere. Cost: O(n + F); the connectivity is shared.
     ///
     /// # Errors
     /// A coordinate that is not finite or out of range, or a list of another length.

@@ -162,7 +162,8 @@ fn run(setting: &Setting) -> Vec<Finding> {
             line.extend(flips.map(|f| [shear as f64, f as f64]));
             last = flips;
         }
-        lines.push(Series::new(format!("{} vertices", k * k), Mark::Line, line));
+        let name = if k == 1 { "1 vertex".into() } else { format!("{} vertices", k * k) };
+        lines.push(Series::new(name, Mark::Line, line));
         table.push(format!("{} vertices {{{}}}", k * k, row.join(", ")));
     }
     let mut forced = forced.answer(

@@ -5,6 +5,7 @@
 //!
 //! To add one: write the file and name it below, in the `catalogue`.
 
+mod calculus;
 pub mod limit;
 mod poll;
 pub mod world;
@@ -12,6 +13,9 @@ pub mod world;
 catalogue! {
     /// Every experiment, in the order of the claims.
     Experiment:
+    smooth_functions,
+    kernels_and_minmax,
+    metric_from_cotangents,
     graph_form,
     graph_positivity,
     mean_value_property,
@@ -22,12 +26,17 @@ catalogue! {
     linear_precision_of_graphs,
     cotangent_sign,
     cheeger_inequality,
+    isospectral_graphs,
+    isospectral_drums,
+    cheeger_sweep,
+    cheeger_on_surfaces,
     dual_faces,
     family_positivity,
     orthogonal_duals,
     pub no_free_lunch,
     rippa_in_the_plane,
     rippa_in_space,
+    spectral_rippa,
     tutte_embedding,
     flips_in_the_plane,
     flips_on_tori,
@@ -66,9 +75,9 @@ pub struct Setting {
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 #[serde(rename_all = "kebab-case")]
 pub enum Effort {
-    /// The smallest worlds and few random cases: all experiments together within two seconds.
+    /// The smallest worlds and few random cases: all experiments together take some five seconds.
     Smoke,
-    /// Larger worlds and more random cases: all experiments together within six seconds.
+    /// Larger worlds and more random cases: all experiments together take some fifteen seconds.
     #[default]
     Full,
 }

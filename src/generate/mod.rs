@@ -15,6 +15,7 @@ catalogue! {
     cycle,
     delaunay,
     disk,
+    pub drum,
     dumbbell,
     fan,
     flat_torus,

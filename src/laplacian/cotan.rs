@@ -132,10 +132,7 @@ pub static ENTRY: Laplacian = Laplacian {
 };
 
 fn build(domain: &Domain, settings: &Settings) -> Result<Operator, BuildError> {
-    let operator = on_triangles::operator(ENTRY.id, domain, settings, |triangles, edge| {
-        let weight = weight(triangles, edge);
-        [weight, weight]
-    })?;
+    let operator = on_triangles::symmetric_operator(ENTRY.id, domain, settings, weight)?;
     Ok(operator.with_exact_signs())
 }
 

@@ -65,8 +65,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use super::shape::{Shape, Triangles};
-use super::stiffness::EdgeWeights;
+use super::shape::{self, Shape, Triangles};
 use super::{BuildError, Fact, Laplacian, Promise, When, mass, on_triangles, stiffness};
 use crate::domain::intrinsic::{IntrinsicError, IntrinsicTriangulation};
 use crate::domain::{Domain, cotangent, delaunay};
@@ -128,31 +127,39 @@ fn build(domain: &Domain, settings: &Settings) -> Result<Operator, BuildError> {
     let surface = on_triangles::surface(ENTRY.id, domain)?;
     let skip = settings.get("degenerate") == "skip";
     let triangles = Triangles::new(ENTRY.id, surface, skip)?.with_lengths(ENTRY.id)?;
-    let mut intrinsic = IntrinsicTriangulation::new(surface, |face| triangles.is_proper(face)).map_err(refusal)?;
+    let doubled_area = |face: usize| triangles.angles(face).map(|angles| angles[3]);
+    let mut intrinsic = IntrinsicTriangulation::with_areas(surface, doubled_area).map_err(refusal)?;
     let clear = |e: usize| delaunay::clear_sign(triangles.cotangents_opposite(e).copied());
     let clear = parallel::collect(intrinsic.edge_count(), clear);
     let flips = intrinsic.make_delaunay_knowing(|edge| clear[edge]);
     drop(clear);
-    let shapes =
-        parallel::collect(intrinsic.face_count(), |f| (corners(&intrinsic, f), shape(&intrinsic, &triangles, f)));
+    let angles = parallel::collect(intrinsic.face_count(), |f| angles(&intrinsic, &triangles, f));
     // The cotangent opposite each half-edge, put down face by face: edges then read theirs in order.
     let mut opposite = vec![0.0; 2 * intrinsic.edge_count()];
-    for (face, (_, shape)) in shapes.iter().enumerate() {
+    for (face, cotangents) in angles.iter().enumerate() {
         let [h, n, p] = intrinsic.half_edges(face);
-        (opposite[n], opposite[p], opposite[h]) = shape.cotangents.into();
+        [opposite[n], opposite[p], opposite[h]] = [cotangents[0], cotangents[1], cotangents[2]];
     }
-    let weights = parallel::collect(intrinsic.edge_count(), |e| edge_weights(&intrinsic, &opposite, e));
+    let weights = parallel::collect(intrinsic.edge_count(), |e| weight(&intrinsic, &opposite, e));
     drop(opposite);
-    let weights: Vec<EdgeWeights<f64>> = weights.into_iter().flatten().collect();
     let n = surface.positions().len();
-    let matrix = stiffness::finite(ENTRY.id, n, &weights)?;
-    let each = shapes.iter().map(|(corners, shape)| (*corners, shape));
-    let mass = mass::build(ENTRY.id, settings.get("mass"), n, each)?;
+    // An edge without a triangle adds nothing, and neither does a loop.
+    let ends = |e: usize| intrinsic.ends(e).unwrap_or_default();
+    let matrix = stiffness::from_each(n, weights.len(), ends, |e, _| weights[e]);
+    stiffness::check_finite(ENTRY.id, &matrix)?;
+    let each = angles.iter().enumerate().map(|(f, angles)| (f, corners(&intrinsic, f), angles));
+    let mass = match settings.get("mass") {
+        "barycentric" => mass::barycentric(ENTRY.id, n, each.map(|(_, corners, angles)| (corners, angles[3])))?,
+        name => {
+            let shape = |f: usize, angles: &[f64; 4]| shape(&intrinsic, &triangles, f, angles);
+            mass::build(ENTRY.id, name, n, each.map(|(f, corners, angles)| (corners, shape(f, angles))))?
+        }
+    };
     let mut notes = on_triangles::notes(&triangles);
     notes.push(format!("{flips} flips to the intrinsic Delaunay triangulation"));
     notes.extend(negative_by_rounding(&intrinsic, &weights));
     let provenance = Provenance { id: ENTRY.id.into(), parameters: settings.all().clone(), notes };
-    let exact = (intrinsic.is_planar() || flips == 0) && !has_parallel_edges(&weights, &matrix);
+    let exact = (intrinsic.is_planar() || flips == 0) && !has_parallel_edges(&intrinsic, &matrix);
     let operator = Operator::new(matrix, provenance)?.with_mass(mass)?;
     Ok(if exact { operator.with_exact_signs() } else { operator })
 }
@@ -172,58 +179,82 @@ fn corners(intrinsic: &IntrinsicTriangulation, face: usize) -> [usize; 3] {
     known.unwrap_or_else(|| intrinsic.corners(face))
 }
 
-/// The shape of an intrinsic triangle, in the order of its half-edges: that of the face that it is, from positions where it is
-/// straight in space.
-fn shape(intrinsic: &IntrinsicTriangulation, triangles: &Triangles, face: usize) -> Shape<f64> {
-    if let Some(known) = intrinsic.source(face).and_then(|source| triangles.shape(source)) {
-        return known.clone();
+/// The cotangents of an intrinsic triangle, in the order of its half-edges, and twice its area: those of the face that it is, from
+/// positions where it is straight in space.
+fn angles(intrinsic: &IntrinsicTriangulation, triangles: &Triangles, face: usize) -> [f64; 4] {
+    if let Some(known) = intrinsic.source(face).and_then(|source| triangles.angles(source)) {
+        return *known;
     }
-    if intrinsic.is_straight(face) {
-        return Shape::in_space(intrinsic.corners(face).map(|v| intrinsic.surface().point(v)));
-    }
-    // Corner k is where half-edge k starts; opposite it is the half-edge that follows.
-    let [h, n, p] = intrinsic.half_edges(face);
-    let opposite = [n, p, h];
-    Shape {
-        cotangents: opposite.map(|h| intrinsic.cotangent_opposite(h)),
-        squared_lengths: opposite.map(|h| intrinsic.length(h / 2) * intrinsic.length(h / 2)),
-        doubled_area: intrinsic.doubled_area(face),
-    }
+    let ([x, y, z], doubled_area) = if intrinsic.is_straight(face) {
+        let found = cotangent::of_triangle(intrinsic.corners(face).map(|v| intrinsic.surface().point(v)));
+        (found.values, found.doubled_area)
+    } else {
+        (opposite(intrinsic, face).map(|h| intrinsic.cotangent_opposite(h)), intrinsic.doubled_area(face))
+    };
+    [x, y, z, doubled_area]
 }
 
-/// The ends and the weight of an intrinsic edge, its sign exact where both triangles are straight; `opposite` has the cotangent
-/// opposite each half-edge.
-fn edge_weights(intrinsic: &IntrinsicTriangulation, opposite: &[f64], edge: usize) -> Option<EdgeWeights<f64>> {
-    let ends = intrinsic.ends(edge)?;
+/// The half-edges opposite the corners of a triangle: corner k is where half-edge k starts, opposite it is the one that follows.
+fn opposite(intrinsic: &IntrinsicTriangulation, face: usize) -> [usize; 3] {
+    let [h, n, p] = intrinsic.half_edges(face);
+    [n, p, h]
+}
+
+/// The shape of an intrinsic triangle with these [`angles`].
+#[inline]
+fn shape(
+    intrinsic: &IntrinsicTriangulation,
+    triangles: &Triangles,
+    face: usize,
+    &[x, y, z, doubled_area]: &[f64; 4],
+) -> Shape<f64> {
+    if let Some(known) = intrinsic.source(face).and_then(|source| triangles.shape(source)) {
+        return known;
+    }
+    let squared_lengths = if intrinsic.is_straight(face) {
+        shape::squared_lengths(intrinsic.corners(face).map(|v| &intrinsic.surface().positions()[v]))
+    } else {
+        opposite(intrinsic, face).map(|h| intrinsic.length(h / 2) * intrinsic.length(h / 2))
+    };
+    Shape { cotangents: [x, y, z], squared_lengths, doubled_area }
+}
+
+/// The weight of an intrinsic edge, its sign exact where both triangles are straight; `opposite` has the cotangent opposite each
+/// half-edge.
+fn weight(intrinsic: &IntrinsicTriangulation, opposite: &[f64], edge: usize) -> f64 {
     let (mut cotangents, mut count) = ([0.0; 2], 0);
-    for h in intrinsic.sides(edge).take(2) {
+    for h in intrinsic.sides(edge) {
         cotangents[count] = opposite[h];
         count += 1;
     }
-    let weight = if intrinsic.sides(edge).all(|h| intrinsic.is_straight(intrinsic.face(h))) {
+    if !intrinsic.sides(edge).all(|h| intrinsic.is_straight(intrinsic.face(h))) {
+        return 0.5 * cotangents[0] + 0.5 * cotangents[1];
+    }
+    cotangent::half_sum(&cotangents[..count], || {
         let at = |v: usize| intrinsic.surface().point(v);
-        let [p, q] = ends.map(at);
-        cotangent::half_sum(&cotangents[..count], || intrinsic.sides(edge).map(move |h| [at(intrinsic.apex(h)), p, q]))
-    } else {
-        cotangents.iter().map(|cot| 0.5 * cot).sum()
-    };
-    Some((ends, [weight, weight]))
+        let [p, q] = intrinsic.ends(edge).unwrap_or_default().map(at);
+        intrinsic.sides(edge).map(move |h| [at(intrinsic.apex(h)), p, q])
+    })
 }
 
 /// A note on interior edges whose weight is negative: on a Delaunay triangulation only rounding can make it so.
-fn negative_by_rounding(intrinsic: &IntrinsicTriangulation, weights: &[EdgeWeights<f64>]) -> Option<String> {
-    let edges = (0..intrinsic.edge_count()).filter(|&e| intrinsic.sides(e).next().is_some());
-    let interior = edges.zip(weights).filter(|&(e, _)| intrinsic.sides(e).count() == 2);
-    let negative: Vec<f64> = interior.map(|(_, (_, [w, _]))| *w).filter(|w| *w < 0.0).collect();
-    let worst = negative.iter().copied().reduce(f64::min)?;
-    let count = negative.len();
-    Some(format!("{count} interior weights are negative by rounding, the worst is {worst:e}; they are kept"))
+fn negative_by_rounding(intrinsic: &IntrinsicTriangulation, weights: &[f64]) -> Option<String> {
+    let negative = weights.iter().enumerate().filter(|&(e, w)| *w < 0.0 && intrinsic.sides(e).count() == 2);
+    let (count, worst) = negative.fold((0, 0.0), |(count, worst), (_, w)| (count + 1, f64::min(worst, *w)));
+    (count > 0)
+        .then(|| format!("{count} interior weights are negative by rounding, the worst is {worst:e}; they are kept"))
 }
 
 /// Whether two edges have the same ends: then the matrix has fewer entries than ends and vertices, or a vertex several loops.
-fn has_parallel_edges(weights: &[EdgeWeights<f64>], matrix: &Csr) -> bool {
-    let mut loops: Vec<usize> = weights.iter().filter(|([a, b], _)| a == b).map(|([a, _], _)| *a).collect();
+fn has_parallel_edges(intrinsic: &IntrinsicTriangulation, matrix: &Csr) -> bool {
+    let (mut edges, mut loops) = (0, Vec::new());
+    for [a, b] in (0..intrinsic.edge_count()).filter_map(|e| intrinsic.ends(e)) {
+        edges += 1;
+        if a == b {
+            loops.push(a);
+        }
+    }
     loops.sort_unstable();
-    let entries = matrix.rows() + 2 * (weights.len() - loops.len());
+    let entries = matrix.rows() + 2 * (edges - loops.len());
     matrix.stored() < entries || loops.windows(2).any(|pair| pair[0] == pair[1])
 }

@@ -34,10 +34,10 @@ use crate::scalar::Scalar;
 pub const KINDS: &[&str] = &["barycentric", "voronoi", "mixed", "consistent", "unit"];
 
 /// The mass matrix of some triangles over any scalar; `None` for a kind that is not made from triangles.
-pub fn of_triangles<'s, S: Scalar>(
+pub fn of_triangles<S: Scalar>(
     kind: MassKind,
     vertices: usize,
-    triangles: impl Iterator<Item = ([usize; 3], &'s Shape<S>)>,
+    triangles: impl Iterator<Item = ([usize; 3], Shape<S>)>,
 ) -> Option<Csr<S>> {
     match kind {
         MassKind::Consistent => Some(consistent(vertices, triangles)),
@@ -60,11 +60,11 @@ pub fn in_plane<S: Scalar>(surface: &Surface, kind: MassKind) -> Option<Csr<S>> 
 ///
 /// # Errors
 /// An area that is not a normal number, an entry that is not finite.
-pub(super) fn build<'s>(
+pub(super) fn build(
     laplacian: &'static str,
     name: &str,
     vertices: usize,
-    triangles: impl Iterator<Item = ([usize; 3], &'s Shape<f64>)> + Clone,
+    triangles: impl Iterator<Item = ([usize; 3], Shape<f64>)> + Clone,
 ) -> Result<Mass, BuildError> {
     // The name was checked against `KINDS`.
     let kind = MassKind::from_name(name).unwrap_or(MassKind::Unit);
@@ -78,6 +78,28 @@ pub(super) fn build<'s>(
     Ok(Mass::full(kind, matrix))
 }
 
+/// The barycentric mass of triangles of which no more than corners and twice the areas are known, bit for bit that of [`build`].
+///
+/// # Errors
+/// As [`build`].
+pub(super) fn barycentric(
+    laplacian: &'static str,
+    vertices: usize,
+    triangles: impl Iterator<Item = ([usize; 3], f64)>,
+) -> Result<Mass, BuildError> {
+    let mut diagonal = vec![0.0; vertices];
+    for (corners, doubled_area) in triangles {
+        if !doubled_area.is_normal() {
+            let [i, j, _] = corners;
+            return Err(BuildError::NotFinite { laplacian, i, j, value: format!("area {doubled_area:e}") });
+        }
+        corners.into_iter().for_each(|v| diagonal[v] += doubled_area / 6.0);
+    }
+    let mass = Mass::of_diagonal(MassKind::Barycentric, diagonal);
+    check_finite(laplacian, mass.matrix())?;
+    Ok(mass)
+}
+
 /// The mass matrix with this name of the proper triangles of a surface, bit for bit that of [`build`]; a diagonal one is
 /// gathered vertex by vertex over the faces around it, in parallel.
 ///
@@ -87,26 +109,29 @@ pub(super) fn of_surface(laplacian: &'static str, name: &str, triangles: &Triang
     let vertices = triangles.surface().positions().len();
     let each = triangles.each().map(|(_, corners, shape)| (corners, shape));
     let kind = MassKind::from_name(name).unwrap_or(MassKind::Unit);
-    let shares = match kind {
-        MassKind::Barycentric => thirds,
-        MassKind::Voronoi => circumcentric,
-        MassKind::Mixed => mixed,
-        _ => return build(laplacian, name, vertices, each),
-    };
     if !triangles.have_normal_areas() {
         return build(laplacian, name, vertices, each);
     }
-    let matrix = Csr::diagonal(&gathered(triangles, shares));
-    check_finite(laplacian, &matrix)?;
-    Ok(Mass::full(kind, matrix))
+    let shape = |c: &Corner| triangles.shape(c.face());
+    let diagonal = match kind {
+        // A third of the area asks for no more than the area.
+        MassKind::Barycentric => gathered(triangles, |c| Some(triangles.angles(c.face())?[3] / 6.0)),
+        MassKind::Voronoi => gathered(triangles, |c| Some(circumcentric(&shape(c)?)[c.corner()])),
+        MassKind::Mixed => gathered(triangles, |c| Some(mixed(&shape(c)?)[c.corner()])),
+        _ => return build(laplacian, name, vertices, each),
+    };
+    if diagonal.iter().all(|v| v.is_finite()) {
+        return Ok(Mass::of_diagonal(kind, diagonal));
+    }
+    check_finite(laplacian, &Csr::diagonal(&diagonal))?;
+    Ok(Mass::of_diagonal(kind, diagonal))
 }
 
 /// At each vertex the sum of the shares of the proper triangles around it, in face order.
-fn gathered<S: Scalar>(triangles: &Triangles<S>, shares: fn(&Shape<S>) -> [S; 3]) -> Vec<S> {
+fn gathered(triangles: &Triangles, share: impl Fn(&Corner) -> Option<f64> + Sync + Send) -> Vec<f64> {
     let topology = triangles.surface().topology();
     parallel::collect(triangles.surface().positions().len(), |v| {
-        let share = |c: &Corner| Some(shares(triangles.shape(c.face())?)[c.corner()].clone());
-        topology.star(v).iter().filter_map(share).fold(S::zero(), |sum, share| sum + share)
+        topology.star(v).iter().filter_map(&share).fold(0.0, |sum, share| sum + share)
     })
 }
 
@@ -115,7 +140,7 @@ fn number<S: Scalar>(x: f64) -> S {
     S::exactly(x).unwrap_or_else(S::zero)
 }
 
-fn consistent<'s, S: Scalar>(n: usize, triangles: impl Iterator<Item = ([usize; 3], &'s Shape<S>)>) -> Csr<S> {
+fn consistent<S: Scalar>(n: usize, triangles: impl Iterator<Item = ([usize; 3], Shape<S>)>) -> Csr<S> {
     let mut entries = Vec::new();
     for (corners, shape) in triangles {
         let twelfth = shape.doubled_area.clone() / number(24.0);
@@ -130,14 +155,14 @@ fn consistent<'s, S: Scalar>(n: usize, triangles: impl Iterator<Item = ([usize; 
     Csr::from_triplets(n, n, &entries)
 }
 
-fn lumped<'s, S: Scalar>(
+fn lumped<S: Scalar>(
     n: usize,
-    triangles: impl Iterator<Item = ([usize; 3], &'s Shape<S>)>,
+    triangles: impl Iterator<Item = ([usize; 3], Shape<S>)>,
     shares: impl Fn(&Shape<S>) -> [S; 3],
 ) -> Csr<S> {
     let mut diagonal = vec![S::zero(); n];
     for (corners, shape) in triangles {
-        for (i, share) in corners.into_iter().zip(shares(shape)) {
+        for (i, share) in corners.into_iter().zip(shares(&shape)) {
             diagonal[i] = diagonal[i].clone() + share;
         }
     }
@@ -175,7 +200,7 @@ mod tests {
     }
 
     fn diagonal(kind: MassKind, shape: &Shape<Rational>) -> [f64; 3] {
-        let m = of_triangles(kind, 3, [([0, 1, 2], shape)].into_iter()).unwrap();
+        let m = of_triangles(kind, 3, [([0, 1, 2], shape.clone())].into_iter()).unwrap();
         std::array::from_fn(|i| Scalar::approximate(&m.at(i, i)))
     }
 
@@ -200,7 +225,7 @@ mod tests {
             let t = triangle([[0.1, 0.2], [3.0, -0.7], [f64::from(x), 1.3]]);
             let area = t.doubled_area.clone() * Rational::half();
             for kind in LUMPED.into_iter().chain([MassKind::Consistent]) {
-                let m = of_triangles(kind, 3, [([0, 1, 2], &t)].into_iter()).unwrap();
+                let m = of_triangles(kind, 3, [([0, 1, 2], t.clone())].into_iter()).unwrap();
                 let total = m.entries().fold(Rational::zero(), |sum, (_, _, v)| sum + v.clone());
                 assert_eq!((total - area.clone()).cmp_zero(), Ordering::Equal, "{kind:?} {x}");
             }

@@ -116,7 +116,7 @@ fn weight(triangles: &Triangles, edge: usize, from: usize) -> f64 {
 }
 
 /// `tan(θ/2) / |e|`, positive even where the quotient underflows.
-fn term(flank: &Flank<'_, f64>, from: usize) -> f64 {
+fn term(flank: &Flank<f64>, from: usize) -> f64 {
     let [_, _, apex] = flank.corners;
     let length = flank.shape.squared_lengths[apex].sqrt();
     (tan_half(flank.shape.cotangents[flank.corners[from]]) / length).max(f64::MIN_POSITIVE)

@@ -44,16 +44,37 @@ pub(super) fn operator(
     settings: &Settings,
     weights: impl Fn(&Triangles, usize) -> [f64; 2] + Sync + Send,
 ) -> Result<Operator, BuildError> {
+    assembled(laplacian, domain, settings, weights, |both, upward| if upward { both[0] } else { both[1] })
+}
+
+/// The same where `ω_ij = ω_ji`.
+pub(super) fn symmetric_operator(
+    laplacian: &'static str,
+    domain: &Domain,
+    settings: &Settings,
+    weight: impl Fn(&Triangles, usize) -> f64 + Sync + Send,
+) -> Result<Operator, BuildError> {
+    assembled(laplacian, domain, settings, weight, |weight, _| *weight)
+}
+
+/// The operator with what a formula gives for each edge; `weight` reads the one of the row of the smaller end (`true`) or of the
+/// larger one out of that.
+fn assembled<W: Send + Sync>(
+    laplacian: &'static str,
+    domain: &Domain,
+    settings: &Settings,
+    formula: impl Fn(&Triangles, usize) -> W + Sync + Send,
+    weight: impl Fn(&W, bool) -> f64 + Sync,
+) -> Result<Operator, BuildError> {
     let surface = surface(laplacian, domain)?;
     let skip = settings.get("degenerate") == "skip";
     let triangles = Triangles::new(laplacian, surface, skip)?.with_lengths(laplacian)?;
-    let edges = surface.topology().edges();
-    let weights: Vec<[f64; 2]> = parallel::collect(edges.len(), |e| weights(&triangles, e));
-    let matrix = stiffness::from_edges(surface.positions().len(), edges, &weights);
-    stiffness::check_finite(laplacian, &matrix)?;
-    drop(weights);
+    let (edges, incidence) = (surface.topology().edges(), surface.topology().incidence());
     let mass = mass::of_surface(laplacian, settings.get("mass"), &triangles)?;
+    let weights: Vec<W> = parallel::collect(edges.len(), |e| formula(&triangles, e));
     let notes = notes(&triangles);
+    drop(triangles);
+    let matrix = stiffness::of_edges(laplacian, edges, incidence, |e, upward| weight(&weights[e], upward))?;
     let provenance = Provenance { id: laplacian.into(), parameters: settings.all().clone(), notes };
     Ok(Operator::new(matrix, provenance)?.with_mass(mass)?)
 }

@@ -39,39 +39,99 @@ impl<S: Scalar> Shape<S> {
     /// Of a triangle in the plane, exactly over the rationals; `None` if it is degenerate.
     pub fn in_plane(corners: [&[S; 2]; 3]) -> Option<Self> {
         let cotangent = |k: usize| geometry::cotangent_in_plane(corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3]);
-        let squared = |k: usize| {
-            let (p, q) = (corners[(k + 1) % 3], corners[(k + 2) % 3]);
-            let side: [S; 2] = std::array::from_fn(|axis| q[axis].clone() - p[axis].clone());
-            geometry::dot(&side, &side)
-        };
         Some(Shape {
             cotangents: [cotangent(0)?, cotangent(1)?, cotangent(2)?],
-            squared_lengths: [squared(0), squared(1), squared(2)],
+            squared_lengths: squared_lengths(corners),
             doubled_area: geometry::doubled_area(corners[0], corners[1], corners[2]).magnitude(),
         })
     }
 }
 
 /// The triangles of a surface with their shapes; degenerate ones are refused or left out.
+///
+/// # Memory
+/// 32 bytes a triangle over `f64`: lengths are computed when they are asked for.
 pub struct Triangles<'a, S = f64> {
     surface: &'a Surface,
-    shapes: Vec<Option<Shape<S>>>,
+    /// Of each face its three cotangents and twice its area.
+    angles: Vec<[S; 4]>,
+    /// The squared lengths of each face where they are not computed from `f64`, else empty.
+    squared_lengths: Vec<[S; 3]>,
+    /// The degenerate faces, ascending.
+    degenerate: Vec<usize>,
+    /// The first face with a side whose square loses digits below the range of `f64`.
+    too_short: Option<usize>,
+    has_normal_areas: bool,
+}
+
+/// Beyond this the angles of a triangle are looked at with care: its sine is above 2⁻²¹ else.
+const STEEP: f64 = 1_048_576.0;
+
+/// 2⁻¹⁰²² · 2⁶²: a product of two numbers near its root still has all of its 53 bits.
+const SMALLEST_SQUARE: f64 = 1e-289;
+
+/// Faces that need a look.
+#[derive(Default)]
+struct Odd {
+    degenerate: Vec<usize>,
+    too_short: Option<usize>,
+    without_normal_area: bool,
+}
+
+impl Odd {
+    /// Looks at a face, unless one look at its angles shows that it is none of them: with cotangents up to 2²⁰ the sines are above
+    /// 2⁻²¹, far beyond what rounding makes of a sine that is zero; and the sides are in proportion as the sines are, so that the
+    /// square of the shortest is above 2⁻²¹ of the doubled area.
+    fn look(&mut self, face: usize, [x, y, z, doubled_area]: [f64; 4], corners: [[f64; 3]; 3]) {
+        let steep = x.abs().max(y.abs()).max(z.abs());
+        if steep <= STEEP && doubled_area >= 4.0 * STEEP * SMALLEST_SQUARE && doubled_area.is_normal() {
+            return;
+        }
+        let [p, q, r] = corners;
+        let clear = [x, y, z].iter().any(|cot| cot.abs() <= STEEP);
+        if !clear && geometry::collinear(p, q, r) {
+            return self.degenerate.push(face);
+        }
+        self.without_normal_area |= !doubled_area.is_normal();
+        let squares = squared_lengths([&p, &q, &r]);
+        if squares.iter().any(|s| *s < SMALLEST_SQUARE) {
+            self.too_short = self.too_short.or(Some(face));
+        }
+    }
+
+    /// Those of both, those of `self` first.
+    fn then(mut self, later: Self) -> Self {
+        self.degenerate.extend(later.degenerate);
+        self.too_short = self.too_short.or(later.too_short);
+        self.without_normal_area |= later.without_normal_area;
+        self
+    }
 }
 
 impl<'a> Triangles<'a, f64> {
-    /// Checks that every face is a triangle, finds the degenerate ones (exactly), computes the shapes of the others.
+    /// Checks that every face is a triangle, finds the degenerate ones (exactly), computes the angles of the others.
     ///
     /// # Errors
     /// A face with more than three corners; a degenerate triangle, unless they are to be left out (`skip`).
     pub fn new(laplacian: &'static str, surface: &'a Surface, skip: bool) -> Result<Self, BuildError> {
         check_triangles(laplacian, surface)?;
-        let shapes = parallel::collect(surface.faces().len(), |face| proper_shape(surface.triangle(face)?, surface));
-        let triangles = Triangles { surface, shapes };
-        if let (Some(face), false) = (triangles.shapes.iter().position(Option::is_none), skip) {
-            let (corners, count) = (surface.triangle(face).unwrap_or_default(), triangles.skipped());
+        let (triples, _) = surface.faces().corners().as_chunks::<3>();
+        let corners = |face: usize| triples[face].map(|v| surface.positions()[v]);
+        let mut angles = vec![[0.0; 4]; triples.len()];
+        let odd = parallel::fill(&mut angles, |first, block| {
+            cotangent::of_triangles(|k| corners(first + k), block);
+            let mut odd = Odd::default();
+            block.iter().enumerate().for_each(|(k, angles)| odd.look(first + k, *angles, corners(first + k)));
+            odd
+        });
+        let odd = odd.into_iter().fold(Odd::default(), Odd::then);
+        if let (Some(&face), false) = (odd.degenerate.first(), skip) {
+            let (corners, count) = (triples[face], odd.degenerate.len());
             return Err(BuildError::Degenerate { laplacian, face, corners, count });
         }
-        Ok(triangles)
+        let Odd { degenerate, too_short, without_normal_area } = odd;
+        let has_normal_areas = !without_normal_area;
+        Ok(Triangles { surface, angles, squared_lengths: Vec::new(), degenerate, too_short, has_normal_areas })
     }
 
     /// Refuses triangles so small that the squares of their sides lose digits below the range of `f64`.
@@ -79,11 +139,7 @@ impl<'a> Triangles<'a, f64> {
     /// # Errors
     /// The first side shorter than about 3e-145.
     pub fn with_lengths(self, laplacian: &'static str) -> Result<Self, BuildError> {
-        // 2⁻¹⁰²² · 2⁶²: a product of two numbers near its root still has all of its 53 bits.
-        const SMALLEST: f64 = 1e-289;
-        let underflows = |shape: &Shape<f64>| shape.squared_lengths.iter().any(|s| *s < SMALLEST);
-        let found = self.each().find(|(_, _, shape)| underflows(shape)).map(|(_, corners, _)| corners);
-        if let Some([i, j, _]) = found {
+        if let Some([i, j, _]) = self.too_short.and_then(|face| self.surface.triangle(face)) {
             return Err(BuildError::NotFinite { laplacian, i, j, value: "a length that underflows".into() });
         }
         Ok(self)
@@ -91,7 +147,7 @@ impl<'a> Triangles<'a, f64> {
 
     /// Whether the area of every triangle is a normal number.
     pub(super) fn have_normal_areas(&self) -> bool {
-        self.shapes.iter().flatten().all(|shape| shape.doubled_area.is_normal())
+        self.has_normal_areas
     }
 }
 
@@ -100,9 +156,15 @@ impl<'a, S: Scalar> Triangles<'a, S> {
     /// planar ([`Surface::plane`]).
     pub fn in_plane(surface: &'a Surface) -> Option<Self> {
         let positions = surface.planar_positions::<S>()?;
-        let shape = |f: usize| Shape::in_plane(surface.triangle(f)?.map(|v| &positions[v])).map(Some);
-        let shapes = (0..surface.faces().len()).map(shape).collect::<Option<Vec<_>>>()?;
-        Some(Triangles { surface, shapes })
+        let (mut angles, mut squared_lengths) = (Vec::new(), Vec::new());
+        for face in 0..surface.faces().len() {
+            let shape = Shape::in_plane(surface.triangle(face)?.map(|v| &positions[v]))?;
+            let [x, y, z] = shape.cotangents;
+            angles.push([x, y, z, shape.doubled_area]);
+            squared_lengths.push(shape.squared_lengths);
+        }
+        let (degenerate, too_short, has_normal_areas) = (Vec::new(), None, true);
+        Some(Triangles { surface, angles, squared_lengths, degenerate, too_short, has_normal_areas })
     }
 
     /// The surface.
@@ -111,38 +173,57 @@ impl<'a, S: Scalar> Triangles<'a, S> {
     }
 
     /// The proper triangles: face, corners and shape.
-    pub fn each(&self) -> impl Iterator<Item = (usize, [usize; 3], &Shape<S>)> + Clone {
-        self.shapes.iter().enumerate().filter_map(|(f, shape)| Some((f, self.surface.triangle(f)?, shape.as_ref()?)))
+    pub fn each(&self) -> impl Iterator<Item = (usize, [usize; 3], Shape<S>)> + Clone {
+        (0..self.angles.len()).filter_map(|f| Some((f, self.surface.triangle(f)?, self.shape(f)?)))
     }
 
     /// Whether a triangle is not degenerate.
+    #[inline]
     pub fn is_proper(&self, face: usize) -> bool {
-        self.shapes[face].is_some()
+        self.degenerate.is_empty() || self.degenerate.binary_search(&face).is_err()
+    }
+
+    /// The cotangents and twice the area of a triangle; `None` if it was left out.
+    #[inline]
+    pub(super) fn angles(&self, face: usize) -> Option<&[S; 4]> {
+        self.is_proper(face).then(|| &self.angles[face])
     }
 
     /// The shape of a triangle; `None` if it was left out.
-    pub fn shape(&self, face: usize) -> Option<&Shape<S>> {
-        self.shapes[face].as_ref()
+    #[inline]
+    pub fn shape(&self, face: usize) -> Option<Shape<S>> {
+        let [x, y, z, doubled_area] = self.angles(face)?.clone();
+        let squared_lengths = match self.squared_lengths.get(face) {
+            Some(known) => known.clone(),
+            None => {
+                let corners = self.surface.triangle(face)?.map(|v| self.surface.positions()[v]);
+                // Coordinates are finite (checked by the surface), so each has its exact counterpart.
+                let corners = corners.map(|p| p.map(|x| S::exactly(x).unwrap_or_else(S::zero)));
+                squared_lengths(corners.each_ref())
+            }
+        };
+        Some(Shape { cotangents: [x, y, z], squared_lengths, doubled_area })
     }
 
     /// The cotangents of the angles opposite an edge, in face order.
+    #[inline]
     pub fn cotangents_opposite(&self, edge: usize) -> impl Iterator<Item = &S> + Clone {
         let sides = self.surface.topology().sides(edge).iter();
-        sides.filter_map(|side| Some(&self.shape(side.face())?.cotangents[(side.corner() + 2) % 3]))
+        sides.filter_map(|side| Some(&self.angles(side.face())?[LAST[side.corner()]]))
     }
 
     /// The number of triangles left out.
     pub fn skipped(&self) -> usize {
-        self.shapes.iter().filter(|s| s.is_none()).count()
+        self.degenerate.len()
     }
 
     /// The proper triangles beside an edge, each seen from the edge.
-    pub fn beside(&self, edge: usize) -> impl Iterator<Item = Flank<'_, S>> {
+    pub fn beside(&self, edge: usize) -> impl Iterator<Item = Flank<S>> {
         self.surface.topology().sides(edge).iter().filter_map(|side| self.flank(side))
     }
 
-    fn flank(&self, side: &Side) -> Option<Flank<'_, S>> {
-        let shape = self.shapes[side.face()].as_ref()?;
+    fn flank(&self, side: &Side) -> Option<Flank<S>> {
+        let shape = self.shape(side.face())?;
         let (start, end) = (side.corner(), (side.corner() + 1) % 3);
         let (low, high) = if side.forward() { (start, end) } else { (end, start) };
         let apex = (side.corner() + 2) % 3;
@@ -152,9 +233,9 @@ impl<'a, S: Scalar> Triangles<'a, S> {
 }
 
 /// A triangle seen from one of its edges ij, i < j.
-pub struct Flank<'a, S> {
+pub struct Flank<S> {
     /// Its shape.
-    pub shape: &'a Shape<S>,
+    pub shape: Shape<S>,
     /// Which corners of the shape are i, j, and the one opposite.
     pub corners: [usize; 3],
     /// The vertex opposite.
@@ -168,15 +249,16 @@ fn check_triangles(laplacian: &'static str, surface: &Surface) -> Result<(), Bui
     }
 }
 
-/// The shape of a triangle; `None` if it is degenerate (exactly).
-///
-/// Where a cotangent is at most 2²⁰ the sine of its angle is above 2⁻²¹, far beyond what rounding makes of a sine that is zero
-/// ([`geometry::cotangent`]: its error is below 8u/sin²); only thinner triangles are asked exactly.
-fn proper_shape(corners: [usize; 3], surface: &Surface) -> Option<Shape<f64>> {
-    let shape = Shape::in_space(corners.map(|v| surface.point(v)));
-    let clear = shape.cotangents.iter().any(|cot| cot.abs() <= 1_048_576.0);
-    let [i, j, k] = corners.map(|v| surface.positions()[v]);
-    (clear || !geometry::collinear(i, j, k)).then_some(shape)
+/// The corner before each.
+const LAST: [usize; 3] = [2, 0, 1];
+
+/// The squared length of the side opposite each corner.
+pub(super) fn squared_lengths<S: Scalar, const D: usize>(corners: [&[S; D]; 3]) -> [S; 3] {
+    std::array::from_fn(|k| {
+        let (p, q) = (corners[(k + 1) % 3], corners[(k + 2) % 3]);
+        let side: [S; D] = std::array::from_fn(|axis| q[axis].clone() - p[axis].clone());
+        geometry::dot(&side, &side)
+    })
 }
 
 /// The weight with its sign replaced by the exact one: zero where that is zero, and never zero where it is not.

@@ -1,6 +1,9 @@
 //! Puts edge weights together to a stiffness matrix.
 
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+
 use super::BuildError;
+use crate::domain::incidence::Incidence;
 use crate::linalg::Csr;
 use crate::scalar::Scalar;
 
@@ -13,46 +16,81 @@ pub type EdgeWeights<S> = ([usize; 2], [S; 2]);
 /// The diagonal is summed over the finished weights of the row, columns ascending: a row sum is zero up to the rounding of
 /// that one sum, however the weights came about. Over the rationals it is zero. Cost: O(n + E log valence).
 pub fn from_weights<S: Scalar>(vertices: usize, weights: &[EdgeWeights<S>]) -> Csr<S> {
+    from_each(vertices, weights.len(), |e| weights[e].0, |e, forth| weights[e].1[usize::from(!forth)].clone())
+}
+
+/// The same where ends and weights are told by the number of the edge: the weight in the row of its first end (`true`) and of its second.
+pub(super) fn from_each<S: Scalar>(
+    vertices: usize,
+    edges: usize,
+    ends: impl Fn(usize) -> [usize; 2] + Sync,
+    weight: impl Fn(usize, bool) -> S + Sync,
+) -> Csr<S> {
     // At each vertex the other end and the number of each edge, by that end; those of a column in the order given.
-    let mut at = Lists::gather(vertices, weights.len(), |e, add| {
-        let [a, b] = weights[e].0;
-        if a != b {
-            add(a, (b, e));
-            add(b, (a, e));
-        }
+    let mut at = Lists::gather(vertices, edges, |e| {
+        let [a, b] = ends(e);
+        (a != b).then_some([(a, (b as u32, e as u32)), (b, (a as u32, e as u32))])
     });
     at.sort();
     let columns = |i: usize| at.of(i).chunk_by(|a, b| a.0 == b.0);
-    let lengths: Vec<usize> = (0..vertices).map(|i| 1 + columns(i).count()).collect();
-    Csr::from_rows(vertices, &lengths, |i, indices, values| {
+    let write = |i: usize, indices: &mut [usize], values: &mut [S]| {
         let entries = columns(i).map(|parallel| {
             // Subtracted from zero rather than negated: a weight of zero is stored as +0.
-            let entry = |&(_, e): &(usize, usize)| {
-                let ([start, _], [forth, back]) = &weights[e];
-                S::zero() - if *start == i { forth } else { back }.clone()
-            };
+            let entry = |&(_, e): &(u32, u32)| S::zero() - weight(e as usize, ends(e as usize)[0] == i);
             let sum = parallel[1..].iter().fold(entry(&parallel[0]), |sum, e| sum + entry(e));
-            (parallel[0].0, sum)
+            (parallel[0].0 as usize, sum)
         });
         write_row(i, entries, indices, values);
-    })
+    };
+    Csr::from_rows(vertices, vertices, |i| 1 + columns(i).count(), write)
 }
 
-/// The same for edges `[smaller, larger]` in lexicographic order, none twice, and the weights of each: what
-/// [`from_weights`] makes of them, bit for bit, without sorting. Rows are written in parallel; beside the matrix it takes 8 bytes an
-/// edge and 24 a vertex.
-pub(super) fn from_edges<S: Scalar>(vertices: usize, edges: &[[usize; 2]], weights: &[[S; 2]]) -> Csr<S> {
-    // The edges that end at each vertex, ascending: their starts are the columns before the diagonal.
-    let lower = Lists::gather(vertices, edges.len(), |e, add| add(edges[e][1], e));
-    let mut first = vec![0; vertices + 1];
-    edges.iter().for_each(|e| first[e[0] + 1] += 1);
-    (0..vertices).for_each(|v| first[v + 1] += first[v]);
-    let lengths: Vec<usize> = (0..vertices).map(|i| 1 + lower.of(i).len() + first[i + 1] - first[i]).collect();
-    Csr::from_rows(vertices, &lengths, |i, indices, values| {
-        let below = lower.of(i).iter().map(|&e| (edges[e][0], S::zero() - weights[e][1].clone()));
-        let above = (first[i]..first[i + 1]).map(|e| (edges[e][1], S::zero() - weights[e][0].clone()));
-        write_row(i, below.chain(above), indices, values);
-    })
+/// The same for the edges of a domain, `[smaller, larger]` in lexicographic order: `weight` has that of an edge in the row of its
+/// smaller end (`true`) and of its larger one. What [`from_weights`] makes of them, bit for bit, without sorting. Rows are written in
+/// parallel, each once; it takes no memory beside the matrix.
+///
+/// # Errors
+/// The first entry that is NaN or infinite.
+pub(super) fn of_edges(
+    laplacian: &'static str,
+    edges: &[[usize; 2]],
+    incidence: &Incidence,
+    weight: impl Fn(usize, bool) -> f64 + Sync,
+) -> Result<Csr, BuildError> {
+    // A sum is finite if and only if its terms and their sums are: the diagonal speaks for its row.
+    let finite = AtomicBool::new(true);
+    let n = incidence.vertices();
+    let matrix = Csr::from_rows(
+        n,
+        n,
+        |i| 1 + incidence.degree(i),
+        |i, indices, values| {
+            let below = incidence.downward(i).iter().map(|&e| (edges[e as usize][0], 0.0 - weight(e as usize, false)));
+            let above = incidence.upward(i).map(|e| (edges[e][1], 0.0 - weight(e, true)));
+            let (mut at, mut sum) = (0, 0.0);
+            let mut put = |j: usize, value: f64| {
+                (indices[at], values[at]) = (j, value);
+                at += 1;
+            };
+            for (j, value) in below {
+                sum -= value;
+                put(j, value);
+            }
+            put(i, 0.0);
+            for (j, value) in above {
+                sum -= value;
+                put(j, value);
+            }
+            values[incidence.downward(i).len()] = sum;
+            if !sum.is_finite() {
+                finite.store(false, Relaxed);
+            }
+        },
+    );
+    if !finite.into_inner() {
+        check_finite(laplacian, &matrix)?;
+    }
+    Ok(matrix)
 }
 
 /// Writes the entries of a row, columns ascending, and the diagonal between them, which is summed over them.
@@ -79,18 +117,17 @@ struct Lists<T> {
 }
 
 impl<T: Copy + Default + Ord> Lists<T> {
-    /// Puts down what `put` adds for each of `0..count` at the vertices that it names, in that order: a counting sort.
-    fn gather(vertices: usize, count: usize, put: impl Fn(usize, &mut dyn FnMut(usize, T))) -> Self {
+    /// Puts down the two items of each of `0..count` that has any, at the vertices that they come with, in that order: a counting sort.
+    fn gather(vertices: usize, count: usize, pair: impl Fn(usize) -> Option<[(usize, T); 2]>) -> Self {
+        let all = || (0..count).filter_map(&pair).flatten();
         let mut offsets = vec![0; vertices + 2];
         // Counted two places on, the offsets are where the next item goes, and where each list begins in the end.
-        (0..count).for_each(|e| put(e, &mut |v, _| offsets[v + 2] += 1));
+        all().for_each(|(v, _)| offsets[v + 2] += 1);
         (0..=vertices).for_each(|v| offsets[v + 1] += offsets[v]);
         let mut items = vec![T::default(); offsets[vertices + 1]];
-        for e in 0..count {
-            put(e, &mut |v, item| {
-                items[offsets[v + 1]] = item;
-                offsets[v + 1] += 1;
-            });
+        for (v, item) in all() {
+            items[offsets[v + 1]] = item;
+            offsets[v + 1] += 1;
         }
         Lists { offsets, items }
     }
@@ -182,7 +219,9 @@ mod tests {
             let expected = bits(&from_triplets(n, &weights));
             for threads in [1, 2, 5] {
                 let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-                assert_eq!(pool.install(|| bits(&from_edges(n, &edges, &values))), expected, "{n} {count} {threads}");
+                let weight = |e: usize, upward: bool| if upward { values[e][0] } else { values[e][1] };
+                let build = || of_edges("x", &edges, &Incidence::new(n, &edges), weight).unwrap();
+                assert_eq!(pool.install(|| bits(&build())), expected, "{n} {count} {threads}");
             }
         }
     }
@@ -203,5 +242,10 @@ mod tests {
     fn an_infinite_weight_is_refused_with_its_place() {
         let refusal = finite("x", 2, &[([0, 1], [1.0, f64::INFINITY])]).unwrap_err();
         assert!(matches!(refusal, BuildError::NotFinite { i: 1, j: 0, .. }), "{refusal}");
+        for weight in [f64::INFINITY, f64::NAN, 1e308] {
+            let edges = [[0, 1], [0, 2]];
+            let refusal = of_edges("x", &edges, &Incidence::new(3, &edges), |_, _| weight).unwrap_err();
+            assert!(matches!(refusal, BuildError::NotFinite { i: 0, j: 0, .. }), "{refusal}");
+        }
     }
 }

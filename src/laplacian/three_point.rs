@@ -167,9 +167,9 @@ fn sign(triangles: &Triangles, edge: usize, from: usize, p: f64) -> Option<Order
 
 /// What a triangle adds to ω_ij, i the edge's end `from`. A power of the length beyond the range of `f64` gives NaN, which
 /// the assembly refuses.
-fn term(flank: &Flank<'_, f64>, from: usize, p: f64) -> f64 {
+fn term(flank: &Flank<f64>, from: usize, p: f64) -> f64 {
     let (i, j, k) = (flank.corners[from], flank.corners[1 - from], flank.corners[2]);
-    let shape = flank.shape;
+    let shape = &flank.shape;
     // The side ij is opposite k, and the side ik opposite j.
     let (near, far) = (shape.squared_lengths[k], shape.squared_lengths[j]);
     let power = near.powf(0.5 * (p - 2.0));

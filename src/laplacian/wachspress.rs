@@ -126,7 +126,7 @@ fn build(domain: &Domain, settings: &Settings) -> Result<Operator, BuildError> {
 /// `[ω_ij, ω_ji]`.
 fn weights<S: Scalar>(triangles: &Triangles<S>, edge: usize) -> [S; 2] {
     let cotangents = |end: usize| {
-        let at_end = |flank: Flank<'_, S>| flank.shape.cotangents[flank.corners[end]].clone();
+        let at_end = |flank: Flank<S>| flank.shape.cotangents[flank.corners[end]].clone();
         triangles.beside(edge).map(at_end).fold(S::zero(), |sum, cot| sum + cot)
     };
     let length = triangles.beside(edge).next().map(|flank| flank.shape.squared_lengths[flank.corners[2]].clone());

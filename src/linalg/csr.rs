@@ -61,31 +61,37 @@ impl<S: Scalar> Csr<S> {
         matrix
     }
 
-    /// Builds row by row, in parallel, without triplets: row i has `lengths[i]` entries, which `write` stores as its columns,
+    /// Builds row by row, in parallel, without triplets: row i has `length(i)` entries, which `write` stores as its columns,
     /// ascending, and its values. What a row becomes must depend on nothing but its number.
     ///
     /// Cost: O(n + nnz), and what `write` costs. Memory: the matrix itself, 8 bytes a row and 8 an entry beside its value.
     pub(crate) fn from_rows(
+        rows: usize,
         columns: usize,
-        lengths: &[usize],
+        length: impl Fn(usize) -> usize,
         write: impl Fn(usize, &mut [usize], &mut [S]) + Sync,
     ) -> Self {
-        let mut offsets = Vec::with_capacity(lengths.len() + 1);
+        let mut offsets = Vec::with_capacity(rows + 1);
         offsets.push(0);
         let mut end = 0;
-        offsets.extend(lengths.iter().map(|length| {
-            end += length;
+        offsets.extend((0..rows).map(|i| {
+            end += length(i);
             end
         }));
         let (mut indices, mut values) = (vec![0; end], vec![S::zero(); end]);
         write_rows(&offsets, 0, &mut indices, &mut values, &write);
-        Csr { rows: lengths.len(), columns, offsets, indices, values }
+        Csr { rows, columns, offsets, indices, values }
     }
 
     /// A diagonal matrix.
     pub fn diagonal(values: &[S]) -> Self {
+        Csr::from_diagonal(values.to_vec())
+    }
+
+    /// A diagonal matrix that takes the list of its values over.
+    pub fn from_diagonal(values: Vec<S>) -> Self {
         let n = values.len();
-        Csr { rows: n, columns: n, offsets: (0..=n).collect(), indices: (0..n).collect(), values: values.to_vec() }
+        Csr { rows: n, columns: n, offsets: (0..=n).collect(), indices: (0..n).collect(), values }
     }
 
     /// The number of rows.
@@ -118,6 +124,16 @@ impl<S: Scalar> Csr<S> {
     pub fn row_slices(&self, i: usize) -> (&[usize], &[S]) {
         let range = self.offsets[i]..self.offsets[i + 1];
         (&self.indices[range.clone()], &self.values[range])
+    }
+
+    /// Where each row begins among the stored entries, and the end.
+    pub(super) fn offsets(&self) -> &[usize] {
+        &self.offsets
+    }
+
+    /// The columns of the stored entries, row by row.
+    pub fn indices(&self) -> &[usize] {
+        &self.indices
     }
 
     /// The stored values, row by row.

@@ -125,6 +125,16 @@ impl<'a> Lanczos<'a> {
         self.restarts += 1;
     }
 
+    /// Raises the dimension at which the space is full.
+    pub(super) fn enlarge(&mut self, largest: usize) {
+        let (n, before) = (self.basis.nrows(), self.basis.ncols());
+        if largest <= before {
+            return;
+        }
+        self.basis.resize_with(n, largest, |_, _| 0.0);
+        self.projected.resize_with(largest, largest, |_, _| 0.0);
+    }
+
     /// The dimension at which the space is full.
     pub(super) fn largest(&self) -> usize {
         self.basis.ncols()
@@ -162,12 +172,13 @@ impl<'a> Lanczos<'a> {
         Ok(coupling)
     }
 
-    /// Makes a block M-orthonormal (through the eigenvectors of its Gram matrix, three times), columns that vanish being replaced
+    /// Makes a block M-orthonormal (through the eigenvectors of its Gram matrix, as often as it takes) and orthogonal to the basis, columns that vanish being replaced
     /// by random ones orthogonal to the basis. Returns R with `block before = block after · R`.
     fn orthonormalise(&mut self, block: &mut Mat<f64>) -> Result<Mat<f64>, FactorError> {
         let b = block.ncols();
         let mut triangle = Mat::<f64>::identity(b, b);
-        for _ in 0..3 {
+        // Once to scale the columns, once more after what they lost to the basis, and again where some had vanished.
+        for _ in 0..4 {
             let weighted = self.apply_mass(block.as_ref());
             let gram = products(block.as_ref(), weighted.as_ref());
             let eigen = gram.self_adjoint_eigen(Side::Lower).map_err(|_| FactorError::Unfinished)?;
@@ -179,14 +190,15 @@ impl<'a> Lanczos<'a> {
             *block = combine(block.as_ref(), Mat::from_fn(b, b, |i, j| u[(i, j)] * inverse(j)).as_ref());
             triangle = Mat::from_fn(b, b, |i, j| u[(j, i)] * scale(i)) * &triangle;
             let lost: Vec<usize> = (0..b).filter(|&j| !is_sound(j)).collect();
+            // A block that was nearly orthonormal before is as orthogonal to the basis after.
+            if lost.is_empty() && s[0] > 0.25 && largest < 4.0 {
+                break;
+            }
             lost.iter().for_each(|&j| self.randomise(block, j));
             let space = self.basis.get(.., ..self.dimension);
             let weighted = self.apply_mass(block.as_ref());
             let found = products(space, weighted.as_ref());
             subtract(block.as_mut(), space, found.as_ref());
-            if lost.is_empty() && largest > 0.25 && s[0] > 0.25 && largest < 4.0 {
-                break;
-            }
         }
         Ok(triangle)
     }

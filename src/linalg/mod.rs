@@ -11,7 +11,10 @@ pub mod factor;
 pub mod full;
 mod influence;
 mod lanczos;
+pub mod mirror;
 pub(crate) mod parallel;
+pub mod pencil;
+pub mod polynomial;
 pub mod program;
 pub mod rational;
 pub mod regular;
@@ -20,3 +23,6 @@ pub mod spectrum;
 
 pub use csr::Csr;
 pub use exact::Dense;
+pub use mirror::Mirror;
+pub use pencil::Pencil;
+pub use polynomial::Polynomial;

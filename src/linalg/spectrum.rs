@@ -185,36 +185,32 @@ impl<'a> Pencil<'a> {
         let mut wanted = (count + BLOCK).min(n);
         let room = |wanted: usize| (2 * wanted + 3 * BLOCK).min(n);
         let mut lanczos = Lanczos::new(&factor, self.mass, BLOCK, room(wanted), seed)?;
-        let (mut solves, mut patience) = (0, PATIENCE);
+        let mut patience = PATIENCE;
         loop {
             let ritz = lanczos.fill()?;
             let converged = ritz.residual.iter().take_while(|r| **r <= TOLERANCE).count();
             let values: Vec<f64> = ritz.theta.iter().map(|theta| sigma + 1.0 / theta).collect();
-            let found = converged.min(wanted);
-            if converged >= wanted || lanczos.largest() == n {
-                let Some(cut) = gap(&values[..found], count, sigma) else {
-                    // No gap yet: the space is made larger and the search begins again from where it is.
-                    solves += lanczos.solves;
-                    wanted = (wanted + wanted / 4 + BLOCK).min(n);
-                    lanczos = Lanczos::new(&factor, self.mass, BLOCK, room(wanted), seed)?;
-                    continue;
-                };
+            if let Some(cut) = gap(&values[..converged], count, sigma) {
                 let tau = 0.5 * (values[cut - 1] + values[cut]);
                 let counted = self.count_below(tau)?;
                 if counted.0 == cut {
-                    solves += lanczos.solves;
                     let vectors = lanczos.vectors(&ritz, cut);
-                    return Ok(self.spectrum(values[..cut].to_vec(), &vectors, tau, counted, solves));
+                    return Ok(self.spectrum(values[..cut].to_vec(), &vectors, tau, counted, lanczos.solves));
                 }
                 if counted.0 < cut || patience == 0 {
                     return Err(SpectrumError::Incomplete { count: counted.0, cut: tau, found: cut });
                 }
                 // A copy is missing: everything found is kept, and a fresh random block looks for it.
-                lanczos.restart(&ritz, found);
+                lanczos.restart(&ritz, converged.min(lanczos.largest() - 2 * BLOCK));
                 lanczos.refresh()?;
             } else {
+                if converged >= wanted {
+                    // No gap yet: the search goes on for more from what it has.
+                    wanted = (wanted + wanted / 4 + BLOCK).min(n);
+                    lanczos.enlarge(room(wanted));
+                }
                 let keep = (wanted + (lanczos.largest() - wanted) / 3).min(lanczos.largest() - 2 * BLOCK);
-                lanczos.restart(&ritz, keep.max(converged));
+                lanczos.restart(&ritz, keep.max(converged).min(lanczos.largest() - 2 * BLOCK));
             }
             patience = match patience.checked_sub(1) {
                 Some(left) => left,

@@ -68,6 +68,11 @@ impl Mass {
         Mass { kind, matrix: Csr::diagonal(diagonal), lumped: true }
     }
 
+    /// A diagonal mass that takes the list of its entries over.
+    pub fn of_diagonal(kind: MassKind, diagonal: Vec<f64>) -> Self {
+        Mass { kind, matrix: Csr::from_diagonal(diagonal), lumped: true }
+    }
+
     /// A mass matrix; it counts as lumped if it has no non-zero entry off the diagonal.
     pub fn full(kind: MassKind, matrix: Csr) -> Self {
         let lumped = matrix.entries().all(|(i, j, v)| i == j || *v == 0.0);

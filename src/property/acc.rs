@@ -16,7 +16,7 @@
 
 use super::evidence::{Evidence, Statement};
 use super::excerpt;
-use super::measure::condition::Triangles;
+use super::measure::condition::{Flanks, Triangles};
 use super::measure::scan::Scan;
 use super::tolerance::{Judgement, LARGEST_EXPLAINED, Threshold, UNIT_ROUNDOFF};
 use super::verdict::Level;
@@ -138,8 +138,8 @@ fn weigh(trial: &Trial, surface: &Surface, triangles: &Triangles) -> (Vec<Weighe
         let exact = cotangent::precise_half_sum(corners);
         let weighed = |i: usize, j: usize| {
             let given = -matrix.at(i, j);
-            let condition = triangles.edge_condition[edge];
-            let explained = 4.0 * UNIT_ROUNDOFF * (given.abs() + triangles.opposite[edge]);
+            let Flanks { condition, opposite } = triangles.flanks[edge];
+            let explained = 4.0 * UNIT_ROUNDOFF * (given.abs() + opposite);
             let threshold = Threshold {
                 explained: explained.min(LARGEST_EXPLAINED * trial.scales().rows[i]),
                 defect: 4.0 * condition * explained,

@@ -54,11 +54,23 @@ fn check(trial: &Trial) -> Verdict {
     if plane.is_none() && !shares::has_planar_faces(surface) {
         return Verdict::not_applicable("the surface has a polygon that is not planar: its area is a convention");
     }
-    let (area, area_threshold) = shares::area(surface, trial.scales());
+    let (area, area_threshold) = trial.area(surface);
     if area == 0.0 {
         return Verdict::not_applicable("the surface has no area");
     }
-    let rounding = rounding(trial, surface);
+    let (energies, rounding) = match plane {
+        Some([a, b]) => energies(trial, surface, |sums: &mut [Sum; 3], w, d| {
+            sums[0].add_triple(d[a], w, d[a]);
+            sums[1].add_triple(d[b], w, d[a]);
+            sums[2].add_triple(d[b], w, d[b]);
+        }),
+        None => energies(trial, surface, |sums, w, d| {
+            let mut square = Sum::default();
+            d.into_iter().for_each(|d| square.add_product(d, d));
+            sums[0].add_multiple(w, square);
+        }),
+    };
+    let [first, second, third] = energies.map(Sum::value);
     let threshold = |expected: f64| {
         let t = rounding.plus(area_threshold);
         // On bad slivers the worst case exceeds the area itself: nothing above a share of it is called explained.
@@ -68,16 +80,15 @@ fn check(trial: &Trial) -> Verdict {
     match plane {
         Some(axes) => {
             let [a, b] = axes;
-            let [aa, ab, bb] = energies(trial, surface, [[a, a], [a, b], [b, b]]);
             // The energy of (b, a) is that of (a, b), bit for bit.
-            for (axis, other, found) in [(a, a, aa), (a, b, ab), (b, a, ab), (b, b, bb)] {
-                let (expected, found) = (if axis == other { area } else { 0.0 }, found.value());
+            for (axis, other, found) in [(a, a, first), (a, b, second), (b, a, second), (b, b, third)] {
+                let expected = if axis == other { area } else { 0.0 };
                 let place = Place { axis, other, trace: false, found, expected };
                 scan.look(place, (found - expected).abs(), threshold(area));
             }
         }
         None => {
-            let found = trace(trial, surface);
+            let found = first;
             let place = Place { axis: 0, other: 0, trace: true, found, expected: 2.0 * area };
             scan.look(place, (found - 2.0 * area).abs(), threshold(2.0 * area));
         }
@@ -100,44 +111,34 @@ fn check(trial: &Trial) -> Verdict {
     }
 }
 
-/// `½ Σ_{i≠j} ω_ij (x_i − x_j)_a (x_i − x_j)_b` of some pairs (a, b) of coordinates, in twice the working precision, all in
-/// one pass over the matrix.
-fn energies<const N: usize>(trial: &Trial, surface: &Surface, pairs: [[usize; 2]; N]) -> [Sum; N] {
-    let mut sums = [Sum::default(); N];
-    each_difference(trial, surface, |v, d| {
-        for (sum, [a, b]) in sums.iter_mut().zip(pairs) {
-            sum.add_triple(-0.5 * v, d[a], d[b]);
+/// Sums `½ Σ_{i≠j} ω_ij f(x_i − x_j)` in twice the working precision, `add` telling what a difference adds with its factor, and what
+/// rounding explains of an energy: that of each row, over the energies of its edges. All in one pass over the matrix, the blocks in order.
+fn energies(
+    trial: &Trial,
+    surface: &Surface,
+    add: impl Fn(&mut [Sum; 3], f64, [f64; 3]) + Sync + Send,
+) -> ([Sum; 3], Threshold) {
+    let (matrix, scales, positions) = (trial.operator.stiffness(), trial.scales(), surface.positions());
+    let block = |rows: std::ops::Range<usize>| {
+        let (mut sums, mut rounding) = ([Sum::default(); 3], Threshold::NONE);
+        for i in rows {
+            let (p, mut size) = (positions[i], 0.0);
+            for (j, &v) in matrix.row(i).filter(|&(j, _)| j != i) {
+                let q = positions[j];
+                let d = [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
+                size += v.abs() * (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+                add(&mut sums, -0.5 * v, d);
+            }
+            rounding = rounding.plus(scales.combination(i, 0.5 * size));
         }
-    });
-    sums
-}
-
-/// The sum of the energies of the three coordinates.
-fn trace(trial: &Trial, surface: &Surface) -> f64 {
-    let mut sum = Sum::default();
-    each_difference(trial, surface, |v, d| d.iter().for_each(|&d| sum.add_triple(-0.5 * v, d, d)));
-    sum.value()
-}
-
-/// Each entry off the diagonal with the difference of the positions, row by row.
-fn each_difference(trial: &Trial, surface: &Surface, mut see: impl FnMut(f64, [f64; 3])) {
-    let (matrix, positions) = (trial.operator.stiffness(), surface.positions());
-    for i in 0..matrix.rows() {
-        let p = positions[i];
-        for (j, &v) in matrix.row(i).filter(|&(j, _)| j != i) {
-            let q = positions[j];
-            see(v, [p[0] - q[0], p[1] - q[1], p[2] - q[2]]);
-        }
+        (sums, rounding)
+    };
+    let (mut sums, mut rounding) = ([Sum::default(); 3], Threshold::NONE);
+    for (found, explained) in parallel::blocks(matrix.rows(), block) {
+        sums.iter_mut().zip(found).for_each(|(sum, found)| sum.add_sum(found));
+        rounding = rounding.plus(explained);
     }
-}
-
-/// What rounding explains of the energy: that of each row, over the energies of its edges.
-fn rounding(trial: &Trial, surface: &Surface) -> Threshold {
-    let (matrix, scales) = (trial.operator.stiffness(), trial.scales());
-    let squared = |i: usize, j: usize| distance(surface.positions()[i], surface.positions()[j]).powi(2);
-    let size = |i: usize| 0.5 * matrix.row(i).map(|(j, v)| v.abs() * squared(i, j)).sum::<f64>();
-    let rows = parallel::collect(matrix.rows(), |i| scales.combination(i, size(i)));
-    rows.into_iter().fold(Threshold::NONE, Threshold::plus)
+    (sums, rounding)
 }
 
 /// The vertex whose row accounts for most of what is wrong: its share `½ Σ_j ω_ij |x_i − x_j|²` of the trace against twice

@@ -6,8 +6,10 @@
 //! operator itself.
 
 mod fraction;
+mod spectral;
 
 pub use fraction::Fraction;
+pub use spectral::{Condition, Mesh, Weighting};
 
 use serde::{Deserialize, Serialize};
 
@@ -491,6 +493,73 @@ pub enum Statement {
         flips: usize,
         /// Two edges of the Delaunay triangulation.
         end: [[i64; 2]; 2],
+    },
+    // ── about spectra, decided by what is written down and nothing else ────────────────────────────────────────────
+    /// Two graphs with unit weights are not isomorphic, and their Laplacians have the same characteristic polynomial: `det(xI − L)`, or
+    /// with `normalised` `det(xI − D⁻¹L)`, D the degrees.
+    Cospectral {
+        /// How many vertices each has.
+        vertices: usize,
+        /// The edges of one.
+        first: Vec<[usize; 2]>,
+        /// The edges of the other.
+        second: Vec<[usize; 2]>,
+        /// Whether the random walk's Laplacian is meant.
+        normalised: bool,
+        /// The coefficients of the polynomial, ascending.
+        polynomial: Vec<Fraction>,
+    },
+    /// Two polygons, triangulated, are not congruent, and their eigenvalue problems are the same one: with R invertible,
+    /// `X_B R = S X_A` for the cotangent stiffness, the barycentric and the consistent mass X. Under Dirichlet S is R, and `X = I`
+    /// fits as well, so that the stiffness alone has one spectrum.
+    Transplantation {
+        /// The mesh A.
+        first: Mesh,
+        /// The mesh B.
+        second: Mesh,
+        /// What eigenfunctions do at the boundary.
+        condition: Condition,
+        /// The entries of R that are not zero: vertex of B, vertex of A.
+        matrix: Vec<(usize, usize, Fraction)>,
+        /// The entries of S that are not zero.
+        dual: Vec<(usize, usize, Fraction)>,
+        /// The squared lengths of the sides of both polygons in their order, wherever that starts: no congruence takes one to the other.
+        outlines: [Vec<u64>; 2],
+    },
+    /// A witness against isospectrality: the cotangent eigenvalue problems of two triangulated polygons have different numbers of
+    /// eigenvalues below `sigma`.
+    SpectraDiffer {
+        /// One mesh.
+        first: Mesh,
+        /// The other mesh.
+        second: Mesh,
+        /// What eigenfunctions do at the boundary.
+        condition: Condition,
+        /// The mass.
+        mass: Weighting,
+        /// σ, exactly: `p/q` in lowest terms.
+        sigma: Fraction,
+        /// How many eigenvalues lie below σ, of each.
+        below: [usize; 2],
+        /// `det(L − σM)` of each, exactly.
+        determinants: [Fraction; 2],
+    },
+    /// A witness against Rippa's theorem for eigenvalues: the faces of the excerpt (whole numbers as positions) are the only
+    /// Delaunay triangulation, and its eigenvalue problem has fewer eigenvalues below `sigma` than that of the triangulation `other` of
+    /// the same points: one of its eigenvalues is larger. All positions, all faces.
+    DelaunayEigenvalue {
+        /// The faces of the other triangulation.
+        other: Vec<[usize; 3]>,
+        /// What eigenfunctions do at the boundary.
+        condition: Condition,
+        /// The mass.
+        mass: Weighting,
+        /// σ, exactly: `p/q` in lowest terms.
+        sigma: Fraction,
+        /// How many eigenvalues lie below σ, on the Delaunay triangulation and on the other one.
+        below: [usize; 2],
+        /// `det(L − σM)` on both, exactly.
+        determinants: [Fraction; 2],
     },
 }
 

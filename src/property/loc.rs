@@ -81,6 +81,11 @@ fn far_entries(trial: &Trial) -> (Vec<Far>, usize) {
     let parts = parallel::blocks(matrix.rows(), |rows| {
         let (mut far, mut total) = (Vec::new(), 0);
         for i in rows {
+            let (columns, values) = matrix.row_slices(i);
+            if !scales.leaves_stencil(i) {
+                total += columns.iter().zip(values).filter(|&(&j, &v)| j != i && v != 0.0).count();
+                continue;
+            }
             for (j, v, link) in stencil.row(matrix, i).filter(|&(j, v, _)| i != j && v != 0.0) {
                 total += 1;
                 if link == Link::Far {

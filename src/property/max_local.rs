@@ -20,6 +20,7 @@
 use super::excerpt::of_rows;
 use super::tolerance::Sign;
 use super::{Evidence, Property, Question, Statement, Tally, Trial, Verdict};
+use crate::linalg::parallel;
 
 /// The catalogue entry.
 pub static ENTRY: Property = Property {
@@ -31,10 +32,12 @@ pub static ENTRY: Property = Property {
     question: Question::Operator(decide),
 };
 
-/// What the signs of a row say: its largest weights of either sign beyond rounding.
+/// What the signs of a row say: its largest weights of either sign beyond rounding, and its weakest.
 struct Signature {
     positive: Option<Found>,
     negative: Option<Found>,
+    /// The smallest magnitude of a weight that is not zero.
+    weakest: f64,
 }
 
 #[derive(Clone, Copy)]
@@ -53,46 +56,25 @@ fn decide(trial: &Trial) -> Verdict {
     if rows.is_empty() {
         return Verdict::not_applicable("the domain has no interior vertex with a neighbour");
     }
-    let scales = &trial.scales().rows;
-    let mut tally = Tally { total: rows.len(), ..Tally::default() };
-    let mut worst: Option<(f64, Statement, usize)> = None;
-    let (mut closest, mut open) = ((-1.0, rows[0]), rows[0]);
-    for &i in &rows {
-        let row = Signature::of(trial, i);
-        let found = match (row.positive, row.negative) {
-            (Some(p), Some(q)) if p.decisive && q.decisive => Some((
-                p.size.min(q.size) / scales[i],
-                Statement::BothSigns { i, positive: p.column, negative: q.column },
-            )),
-            (None, None) => Some((1.0, Statement::NoWeight { i })),
-            _ => None,
-        };
-        if let Some((size, statement)) = found {
-            tally.violations += 1;
-            tally.zeros += usize::from(matches!(statement, Statement::NoWeight { .. }));
-            if worst.as_ref().is_none_or(|(most, _, _)| size > *most) {
-                worst = Some((size, statement, i));
-            }
-        } else if row.is_open() {
-            tally.undecided += 1;
-            open = i;
-        } else {
-            // The row whose weakest weight is weakest stands closest to failing.
-            let weakest = weakest(trial, i) / scales[i];
-            if -weakest > closest.0 {
-                closest = (-weakest, i);
-            }
-        }
-    }
+    // Computed before threads ask for them.
+    trial.rounding();
+    let survey = parallel::blocks(rows.len(), |range| {
+        let mut survey = Survey::default();
+        rows[range].iter().for_each(|&i| survey.look(trial, i));
+        survey
+    });
+    let Survey { tally, worst, closest, open } = survey.into_iter().fold(Survey::default(), Survey::then);
     let level = trial.level_of_signs();
     let verdict = match worst {
         Some((_, statement, i)) => Verdict::fails(level, Evidence::new(statement, of_rows(trial, [i]))),
         None if tally.undecided > 0 => Verdict::undecided(format!(
-            "{} of {} rows, row {open} among them, have a weight between what rounding explains and a defect",
-            tally.undecided, tally.total
+            "{} of {} rows, row {} among them, have a weight between what rounding explains and a defect",
+            tally.undecided,
+            tally.total,
+            open.unwrap_or(rows[0])
         )),
         None => {
-            let statement = Statement::Scan { checked: rows.len(), worst: vec![closest.1] };
+            let statement = Statement::Scan { checked: rows.len(), worst: vec![closest.map_or(rows[0], |(_, i)| i)] };
             Verdict::holds(level, Evidence::bare(statement))
         }
     };
@@ -101,11 +83,75 @@ fn decide(trial: &Trial) -> Verdict {
     if left_out > 0 { verdict.with_note(format!("isolated vertices left out: {left_out}")) } else { verdict }
 }
 
+/// The rows looked at so far.
+#[derive(Default)]
+struct Survey {
+    tally: Tally,
+    /// The worst violation: its size relative to the row, what it says, the row.
+    worst: Option<(f64, Statement, usize)>,
+    /// The row whose weakest weight is weakest relative to the row: it stands closest to failing.
+    closest: Option<(f64, usize)>,
+    /// The last open row.
+    open: Option<usize>,
+}
+
+impl Survey {
+    fn look(&mut self, trial: &Trial, i: usize) {
+        let (row, scale) = (Signature::of(trial, i), trial.scales().rows[i]);
+        self.tally.total += 1;
+        let found = match (row.positive, row.negative) {
+            (Some(p), Some(q)) if p.decisive && q.decisive => {
+                let statement = Statement::BothSigns { i, positive: p.column, negative: q.column };
+                Some((p.size.min(q.size) / scale, statement))
+            }
+            (None, None) => Some((1.0, Statement::NoWeight { i })),
+            _ => None,
+        };
+        if let Some((size, statement)) = found {
+            self.tally.violations += 1;
+            self.tally.zeros += usize::from(matches!(statement, Statement::NoWeight { .. }));
+            if self.worst.as_ref().is_none_or(|(most, _, _)| size > *most) {
+                self.worst = Some((size, statement, i));
+            }
+        } else if row.is_open() {
+            self.tally.undecided += 1;
+            self.open = Some(i);
+        } else {
+            let weakest = row.weakest / scale;
+            if self.closest.is_none_or(|(least, _)| weakest < least) {
+                self.closest = Some((weakest, i));
+            }
+        }
+    }
+
+    /// What comes of looking at the rows of both, those of `self` first.
+    fn then(mut self, later: Self) -> Self {
+        self.tally.total += later.tally.total;
+        self.tally.violations += later.tally.violations;
+        self.tally.zeros += later.tally.zeros;
+        self.tally.undecided += later.tally.undecided;
+        if let Some((size, ..)) = &later.worst
+            && self.worst.as_ref().is_none_or(|(most, ..)| size > most)
+        {
+            self.worst = later.worst;
+        }
+        if let Some((weakest, _)) = later.closest
+            && self.closest.is_none_or(|(least, _)| weakest < least)
+        {
+            self.closest = later.closest;
+        }
+        self.open = later.open.or(self.open);
+        self
+    }
+}
+
 impl Signature {
     fn of(trial: &Trial, i: usize) -> Self {
-        let mut row = Signature { positive: None, negative: None };
-        for (column, &v) in trial.operator.stiffness().row(i).filter(|&(j, _)| j != i) {
-            let sign = trial.rounding().weight(i, v);
+        let (mut row, threshold) =
+            (Signature { positive: None, negative: None, weakest: f64::INFINITY }, trial.rounding().signs(i));
+        for (column, &v) in trial.operator.stiffness().row(i).filter(|&(j, v)| j != i && *v != 0.0) {
+            row.weakest = row.weakest.min(v.abs());
+            let sign = threshold.sign(-v);
             if sign == Sign::Zero {
                 continue;
             }
@@ -122,10 +168,4 @@ impl Signature {
     fn is_open(&self) -> bool {
         self.positive.is_some() && self.negative.is_some()
     }
-}
-
-/// The smallest magnitude of a weight of the row that is not zero.
-fn weakest(trial: &Trial, i: usize) -> f64 {
-    let weights = trial.operator.stiffness().row(i).filter(|&(j, v)| j != i && *v != 0.0);
-    weights.map(|(_, v)| v.abs()).fold(f64::INFINITY, f64::min)
 }

@@ -75,8 +75,12 @@ fn worst_of_row(trial: &Trial, i: usize, sum: f64) -> (Fault, f64, Threshold) {
     let rank =
         |(_, residual, threshold): &(Fault, f64, Threshold)| (threshold.judge(*residual), threshold.margin(*residual));
     let mut worst = (Fault::Sum, sum.abs(), trial.scales().row(i));
-    let row = trial.stencil().row(trial.operator.stiffness(), i);
-    for (j, v, link) in row.filter(|&(j, v, _)| j != i && v > 0.0) {
+    let matrix = trial.operator.stiffness();
+    // The diagonal is positive: is anything else?
+    if matrix.row_slices(i).1.iter().filter(|v| **v > 0.0).count() == 1 {
+        return worst;
+    }
+    for (j, v, link) in trial.stencil().row(matrix, i).filter(|&(j, v, _)| j != i && v > 0.0) {
         let threshold = match trial.operator.signs() {
             Signs::Exact => Threshold::NONE,
             Signs::Rounded => trial.scales().sign(i, v, link.edge()),

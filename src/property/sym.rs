@@ -11,7 +11,7 @@ use super::stencil::Link;
 use super::tolerance::Threshold;
 use super::verdict::{Level, Outcome};
 use super::{Property, Question, Trial, Verdict};
-use crate::linalg::{Csr, parallel};
+use crate::linalg::Csr;
 
 /// The catalogue entry.
 pub static ENTRY: Property = Property {
@@ -28,7 +28,10 @@ fn check(trial: &Trial) -> Verdict {
     }
     let pairs = Pairs::of(trial);
     let scan = Scan::over(trial.operator.size(), |i, scan: &mut Scan<[usize; 2]>| {
-        pairs.of_row(i, |pair| scan.look([pair.i, pair.j], pair.difference.abs(), pair.threshold));
+        pairs.of_row(i, |pair| match pair.difference == 0.0 && pairs.are_in_range(pair.i, pair.j) {
+            true => scan.pass([pair.i, pair.j], || pairs.threshold(&pair)),
+            false => scan.look([pair.i, pair.j], pair.difference.abs(), pairs.threshold(&pair)),
+        });
     });
     let bitwise = scan.margin() == 0.0;
     let mut verdict = scan.verdict(
@@ -46,53 +49,61 @@ fn check(trial: &Trial) -> Verdict {
     verdict
 }
 
-/// A pair `i < j` at which something is stored, with `L_ij − L_ji`.
-pub(super) struct Pair {
-    /// The smaller vertex.
-    pub i: usize,
-    /// The larger vertex.
-    pub j: usize,
+/// A pair `i < j` at which something is stored: L_ij and L_ji.
+struct Pair {
+    i: usize,
+    j: usize,
+    upper: f64,
+    lower: f64,
     /// `L_ij − L_ji`.
-    pub difference: f64,
-    /// What the difference is measured against.
-    pub threshold: Threshold,
+    difference: f64,
 }
 
 /// The pairs at which something is stored on either side of the diagonal.
-pub(super) struct Pairs<'a> {
+struct Pairs<'a> {
     trial: &'a Trial<'a>,
     /// The transpose, where an entry has no mirror image: without it such a pair is found from its smaller vertex only.
     transpose: Option<Csr>,
 }
 
 impl<'a> Pairs<'a> {
-    /// Of the operator on trial. Cost: O(nnz log(row length)).
-    pub fn of(trial: &'a Trial) -> Self {
+    /// Of the operator on trial. Cost: O(nnz).
+    fn of(trial: &'a Trial) -> Self {
         // Computed before threads ask for them.
         trial.scales();
-        let matrix = trial.operator.stiffness();
-        let mirrored = |i: usize| matrix.row_slices(i).0.iter().all(|&j| j > i || matrix.get(j, i).is_some());
-        let all = parallel::blocks(matrix.rows(), |mut rows| rows.all(mirrored)).into_iter().all(|block| block);
-        Pairs { trial, transpose: (!all).then(|| matrix.transpose()) }
+        trial.stencil();
+        let transpose = trial.mirror().is_none().then(|| trial.operator.stiffness().transpose());
+        Pairs { trial, transpose }
+    }
+
+    /// Whether the scales of two rows are finite: then so are the thresholds between them.
+    fn are_in_range(&self, i: usize, j: usize) -> bool {
+        let rows = &self.trial.scales().rows;
+        rows[i].is_finite() && rows[j].is_finite()
+    }
+
+    /// What the difference is measured against.
+    fn threshold(&self, &Pair { i, j, upper, lower, .. }: &Pair) -> Threshold {
+        let (scales, stencil) = (self.trial.scales(), self.trial.stencil());
+        let edge = stencil.along(i, &[j]).next().and_then(Link::edge);
+        scales.entry(i, upper, edge).plus(scales.entry(j, lower, edge))
     }
 
     /// The pairs whose smaller vertex is i, by the larger one.
-    pub fn of_row(&self, i: usize, mut look: impl FnMut(Pair)) {
+    fn of_row(&self, i: usize, mut look: impl FnMut(Pair)) {
         let matrix = self.trial.operator.stiffness();
-        let (scales, stencil) = (self.trial.scales(), self.trial.stencil());
-        let mut see = |j: usize, link: Link, upper: f64, lower: f64| {
-            let threshold = scales.entry(i, upper, link.edge()).plus(scales.entry(j, lower, link.edge()));
-            look(Pair { i, j, difference: upper - lower, threshold });
-        };
+        let mut see = |j: usize, upper: f64, lower: f64| look(Pair { i, j, upper, lower, difference: upper - lower });
         let above = |m: &Csr| m.row_slices(i).0.partition_point(|&j| j <= i);
-        let (columns, values) = matrix.row_slices(i);
-        let (columns, values) = (&columns[above(matrix)..], &values[above(matrix)..]);
         let Some(transpose) = &self.transpose else {
-            for ((&j, &upper), link) in columns.iter().zip(values).zip(stencil.along(i, columns)) {
-                see(j, link, upper, matrix.at(j, i));
+            let (columns, values) = (matrix.indices(), matrix.values());
+            for pair in self.trial.mirror().map_or(&[][..], |mirror| mirror.row(i)) {
+                let [upper, lower] = pair.map(|at| at as usize);
+                see(columns[upper], values[upper], values[lower]);
             }
             return;
         };
+        let (columns, values) = matrix.row_slices(i);
+        let (columns, values) = (&columns[above(matrix)..], &values[above(matrix)..]);
         // Both rows are walked at once, whichever column comes first.
         let (mirror, mirrored) = transpose.row_slices(i);
         let (mut a, mut b) = (0, above(transpose));
@@ -104,8 +115,7 @@ impl<'a> Pairs<'a> {
             if mirror.get(b) == Some(&j) {
                 (lower, b) = (mirrored[b], b + 1);
             }
-            let link = stencil.along(i, &[j]).next().unwrap_or(Link::Far);
-            see(j, link, upper, lower);
+            see(j, upper, lower);
         }
     }
 }

@@ -3,12 +3,13 @@
 use std::sync::OnceLock;
 
 use super::measure::rounding::Rounding;
+use super::measure::shares;
 use super::measure::weights::Surveys;
 use super::stencil::Stencil;
-use super::tolerance::Scales;
+use super::tolerance::{Scales, Threshold};
 use super::{Level, Verdict};
-use crate::domain::{Domain, DomainKind};
-use crate::linalg::Csr;
+use crate::domain::{Domain, DomainKind, Surface};
+use crate::linalg::{Csr, Mirror, parallel};
 use crate::operator::{Operator, Signs};
 
 /// An operator on its domain, with what several properties need of both, computed once.
@@ -24,6 +25,8 @@ pub struct Trial<'a> {
     stencil: OnceLock<Stencil>,
     finite: OnceLock<bool>,
     surveys: OnceLock<Surveys>,
+    mirror: OnceLock<Option<Mirror>>,
+    area: OnceLock<(f64, Threshold)>,
 }
 
 /// Matrix and domain do not belong together.
@@ -63,8 +66,8 @@ impl<'a> Trial<'a> {
             return Err(SizeMismatch { rows, vertices, hint });
         }
         let (scales, rounding, stencil) = (OnceLock::new(), OnceLock::new(), OnceLock::new());
-        let (finite, surveys) = (OnceLock::new(), OnceLock::new());
-        Ok(Trial { domain, operator, seed, scales, rounding, stencil, finite, surveys })
+        let (finite, surveys, mirror, area) = (OnceLock::new(), OnceLock::new(), OnceLock::new(), OnceLock::new());
+        Ok(Trial { domain, operator, seed, scales, rounding, stencil, finite, surveys, mirror, area })
     }
 
     /// The scales that thresholds are relative to.
@@ -75,6 +78,16 @@ impl<'a> Trial<'a> {
     /// The thresholds of rows where their neighbours count.
     pub(crate) fn rounding(&self) -> &Rounding {
         self.rounding.get_or_init(|| Rounding::of(self))
+    }
+
+    /// Each entry of the stiffness matrix above the diagonal with its mirror image; `None` where one has none.
+    pub(crate) fn mirror(&self) -> Option<&Mirror> {
+        self.mirror.get_or_init(|| Mirror::of(self.operator.stiffness())).as_ref()
+    }
+
+    /// The area of the surface of the trial, and what a total is measured against as far as the area's own rounding goes.
+    pub(crate) fn area(&self, surface: &Surface) -> (f64, Threshold) {
+        *self.area.get_or_init(|| shares::area(surface, self.scales()))
     }
 
     /// What the signs of the weights come to.
@@ -99,8 +112,10 @@ impl<'a> Trial<'a> {
         if self.domain.kind() == DomainKind::Points {
             return vec![false; self.domain.vertex_count()];
         }
-        let mut alone = vec![true; self.domain.vertex_count()];
-        self.domain.edges().iter().flatten().for_each(|&v| alone[v] = false);
+        let mut alone = parallel::collect(self.domain.vertex_count(), |v| self.stencil().neighbours(v).is_empty());
+        if !alone.contains(&true) {
+            return alone;
+        }
         for (i, j, _) in self.operator.stiffness().entries().filter(|(i, j, v)| i != j && **v != 0.0) {
             (alone[i], alone[j]) = (false, false);
         }

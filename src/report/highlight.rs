@@ -101,7 +101,11 @@ impl Highlight {
             | Statement::FlipsToDelaunay { .. }
             | Statement::DelaunayNotMinimal { .. }
             | Statement::NotEmbedded { .. }
-            | Statement::TorusFlips { .. } => none,
+            | Statement::TorusFlips { .. }
+            | Statement::Cospectral { .. }
+            | Statement::Transplantation { .. }
+            | Statement::SpectraDiffer { .. }
+            | Statement::DelaunayEigenvalue { .. } => none,
             Statement::PositiveExtension { i, j, .. } => Highlight { bad: vec![[*i, *j]], ..none },
         }
     }

@@ -1,7 +1,7 @@
 //! A sentence for every kind of witness and certificate.
 
 use super::number::{count, degrees, number};
-use crate::record::evidence::{Corner, Fault, Hypothesis, Row, SparseVector, Which};
+use crate::record::evidence::{Corner, Fault, Fraction, Hypothesis, Row, SparseVector, Which};
 use crate::record::{Evidence, Excerpt, Outcome, Statement, Verdict};
 
 /// The verdict in words: what the evidence states, or why there is no decision.
@@ -253,7 +253,58 @@ pub fn statement(evidence: &Evidence) -> String {
             q[0],
             q[1]
         ),
+        Statement::Cospectral { vertices, first, second, normalised, polynomial } => format!(
+            "the graphs with {vertices} vertices and the edges {} and {} are not isomorphic, and both have det(xI − {}) = {}",
+            edges(first),
+            edges(second),
+            if *normalised { "D⁻¹L" } else { "L" },
+            terms(polynomial)
+        ),
+        Statement::Transplantation { first, condition, matrix, .. } => format!(
+            "the two polygons are not congruent, and an invertible matrix with {} entries takes the functions on one to those on \
+             the other so that stiffness, barycentric and consistent mass of {} triangles correspond, under {condition}",
+            count(matrix.len()),
+            count(first.faces.len())
+        ),
+        Statement::SpectraDiffer { condition, mass, sigma, below: [a, b], .. } => format!(
+            "under {condition}, with {mass}, {a} eigenvalue{} of the first mesh and {b} of the second {} below {sigma}",
+            if *a == 1 { "" } else { "s" },
+            if *b == 1 { "lies" } else { "lie" }
+        ),
+        Statement::DelaunayEigenvalue { condition, mass, sigma, below: [delaunay, other], .. } => format!(
+            "under {condition}, with {mass}, {delaunay} eigenvalue{} of the Delaunay triangulation of {} and {other} of another one \
+             {} below {sigma}: its eigenvalue number {} is larger",
+            if *delaunay == 1 { "" } else { "s" },
+            places(x),
+            if *other == 1 { "lies" } else { "lie" },
+            delaunay + 1
+        ),
     }
+}
+
+fn edges(list: &[[usize; 2]]) -> String {
+    list.iter().map(|[a, b]| format!("{a}–{b}")).collect::<Vec<_>>().join(" ")
+}
+
+/// A polynomial in x by its coefficients, ascending.
+fn terms(coefficients: &[Fraction]) -> String {
+    let mut said = String::new();
+    for (power, c) in coefficients.iter().map(Fraction::to_string).enumerate().rev().filter(|(_, c)| c != "0") {
+        let (sign, size) = c.strip_prefix('-').map_or((" + ", c.as_str()), |size| (" − ", size));
+        said += if said.is_empty() && sign == " + " { "" } else { sign };
+        let size = if size == "1" && power > 0 { "" } else { size };
+        said += &match power {
+            0 => size.to_string(),
+            1 => format!("{size}x"),
+            _ => format!("{size}x{}", superscript(power)),
+        };
+    }
+    said
+}
+
+fn superscript(power: usize) -> String {
+    let digits = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    power.to_string().bytes().map(|b| digits[usize::from(b - b'0')]).collect()
 }
 
 fn weight(x: &Excerpt, i: usize, j: usize, zero: bool, opposite: &[Corner]) -> String {

@@ -20,6 +20,9 @@ fn evidence() -> &'static [Evidence] {
             "tutte-embedding",
             "flips-in-the-plane",
             "flips-on-tori",
+            "isospectral-graphs",
+            "isospectral-drums",
+            "spectral-rippa",
         ];
         let setting = Setting { seed: 5, effort: Effort::Smoke };
         let found = experiments.iter().flat_map(|id| (find(id).unwrap().run)(&setting));
@@ -33,6 +36,10 @@ fn evidence() -> &'static [Evidence] {
                         | Statement::PositiveExtension { .. }
                         | Statement::NotEmbedded { .. }
                         | Statement::TorusFlips { .. }
+                        | Statement::Cospectral { .. }
+                        | Statement::Transplantation { .. }
+                        | Statement::SpectraDiffer { .. }
+                        | Statement::DelaunayEigenvalue { .. }
                 )
             })
             .collect()
@@ -86,11 +93,15 @@ fn every_kind_is_verified_exactly_from_its_json_alone() {
         *kinds.entry(kind(&evidence.statement)).or_default() += 1;
     }
     let expected = [
+        ("cospectral", 4),
+        ("delaunay-eigenvalue", 4),
         ("delaunay-not-minimal", 2),
         ("flips-to-delaunay", 3),
         ("not-embedded", 5),
         ("positive-extension", 1),
+        ("spectra-differ", 1),
         ("torus-flips", 1),
+        ("transplantation", 2),
     ];
     assert_eq!(kinds, BTreeMap::from(expected));
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use lapjury::domain::{Domain, Graph, Surface};
 use lapjury::figure::{Axis, Chart, Figure, Mark, Series, Sketch};
-use lapjury::property::evidence::{Corner, Fault, Flip, Hypothesis, Row, Which};
+use lapjury::property::evidence::{Condition, Corner, Fault, Flip, Fraction, Hypothesis, Mesh, Row, Weighting, Which};
 use lapjury::property::{Evidence, Excerpt, Level, Statement, Tally, Verdict};
 use lapjury::record::{
     AtlasFound, AtlasLine, Cell, ClaimLine, ClaimOutcome, DomainLine, Exhibit, Header, Line, OperatorLine, Recheck,
@@ -305,7 +305,44 @@ pub fn triangulations() -> Vec<Statement> {
             fault: Fault::Face { face: 0 },
         },
         Statement::TorusFlips { start: [[1, 0], [3, 1]], flips: 3, end: [[1, 0], [0, 1]] },
+        Statement::Cospectral {
+            vertices: 4,
+            first: vec![[0, 1], [0, 2], [0, 3]],
+            second: vec![[0, 1], [0, 3], [1, 2], [2, 3]],
+            normalised: true,
+            polynomial: ["0", "-2", "5", "-4", "1"].map(Fraction::text).to_vec(),
+        },
+        Statement::Transplantation {
+            first: mesh(),
+            second: mesh(),
+            condition: Condition::Neumann,
+            matrix: vec![(0, 0, Fraction::text("1"))],
+            dual: vec![(0, 0, Fraction::text("1"))],
+            outlines: [vec![1, 2, 1], vec![1, 2, 1]],
+        },
+        Statement::SpectraDiffer {
+            first: mesh(),
+            second: mesh(),
+            condition: Condition::Neumann,
+            mass: Weighting::Unit,
+            sigma: Fraction::text("2/3"),
+            below: [3, 4],
+            determinants: ["-1/9", "1/9"].map(Fraction::text),
+        },
+        Statement::DelaunayEigenvalue {
+            other: vec![[0, 2, 3], [0, 3, 1]],
+            condition: Condition::Neumann,
+            mass: Weighting::Barycentric,
+            sigma: Fraction::text("4/3"),
+            below: [1, 2],
+            determinants: ["-1/9", "1/9"].map(Fraction::text),
+        },
     ]
+}
+
+/// A triangle.
+fn mesh() -> Mesh {
+    Mesh { points: vec![[0, 0], [1, 0], [0, 1]], faces: vec![[0, 1, 2]] }
 }
 
 const OPERATORS: [&str; 8] = [
@@ -580,7 +617,6 @@ pub fn large() -> Record {
 
 /// A statement of each kind about a triangulation: the star of a vertex in a square, its numbers for show.
 pub fn weighings() -> Vec<lapjury::property::Evidence> {
-    use lapjury::property::evidence::Fraction;
     let number = |x: i64| Fraction::text(x.to_string());
     let positions: Vec<(usize, [f64; 3])> = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0], [0.0, 0.0]]
         .map(|[x, y]| [x, y, 0.0])

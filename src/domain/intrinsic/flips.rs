@@ -43,9 +43,9 @@ impl IntrinsicTriangulation<'_> {
     /// Flips the edge if it is not Delaunay; returns the half-edges of the four sides around it.
     fn improve(&mut self, edge: usize, known: impl Fn(usize) -> Option<Ordering>) -> Option<[usize; 4]> {
         let (h, t) = (2 * edge, 2 * edge + 1);
-        let (f, g) = (self.face[h], self.face[t]);
         // The two angles opposite an edge within a single triangle add up to less than π.
-        if f == NONE || g == NONE || f == g {
+        let (f, g) = (self.face(h), self.face(t));
+        if !self.is_inside(h) || !self.is_inside(t) || f == g {
             return None;
         }
         let sign = if self.touched[edge] { None } else { known(edge) };
@@ -66,14 +66,14 @@ impl IntrinsicTriangulation<'_> {
             return None;
         }
         self.flip(edge, &flipped);
-        Some([self.next[h], self.next[self.next[h]], self.next[t], self.next[self.next[t]]])
+        Some([self.next(h), self.next(self.next(h)), self.next(t), self.next(self.next(t))])
     }
 
     /// The vertices around an edge: its start a, the apex c to its left, its end b, the apex d to its right.
     fn quadrilateral(&self, edge: usize) -> [usize; 4] {
         let (h, t) = (2 * edge, 2 * edge + 1);
-        let apex = |h: usize| self.origin[self.next[self.next[h]]];
-        [self.origin[h], apex(h), self.origin[t], apex(t)]
+        let apex = |h: usize| self.origin(self.next(self.next(h)));
+        [self.origin(h), apex(h), self.origin(t), apex(t)]
     }
 
     /// The sign of the cotangent sum of an edge between straight triangles, exactly.
@@ -85,7 +85,7 @@ impl IntrinsicTriangulation<'_> {
                 let [a, b, c, d] = [a, b, c, d].map(|p| [p[x], p[y]]);
                 let inside = geometry::incircle(a, b, c, d);
                 // Either every triangle of a planar mesh is counter-clockwise or none is.
-                if geometry::orient2d(a, b, c) == Ordering::Greater { inside.reverse() } else { inside }
+                if self.counter_clockwise { inside.reverse() } else { inside }
             }
         }
     }
@@ -93,7 +93,7 @@ impl IntrinsicTriangulation<'_> {
     /// Whether the cotangent sum of the stored lengths and areas is negative by more than its rounding.
     fn is_clearly_negative(&self, edge: usize) -> bool {
         let (h, t) = (2 * edge, 2 * edge + 1);
-        let bound = |h: usize| 8.0 * UNIT * self.squares(h).iter().sum::<f64>() / self.doubled_area(self.face[h]);
+        let bound = |h: usize| 8.0 * UNIT * self.squares(h).iter().sum::<f64>() / self.doubled_area(self.face(h));
         self.cotangent_opposite(h) + self.cotangent_opposite(t) < -(bound(h) + bound(t))
     }
 
@@ -103,10 +103,10 @@ impl IntrinsicTriangulation<'_> {
         let length = self.length[edge];
         // Where the apex is, seen from the start of the half-edge: along it, and away from it.
         let apex = |h: usize| {
-            let (n, p) = (self.next[h], self.next[self.next[h]]);
+            let (n, p) = (self.next(h), self.next(self.next(h)));
             let (from_end, from_start) = (self.length[n / 2], self.length[p / 2]);
             let along = 0.5 * (length + (from_start - from_end) * ((from_start + from_end) / length));
-            (along, self.doubled_area(self.face[h]) / length)
+            (along, self.doubled_area(self.face(h)) / length)
         };
         let ((c, above), (d_from_end, below)) = (apex(h), apex(t));
         let d = length - d_from_end;
@@ -127,14 +127,14 @@ impl IntrinsicTriangulation<'_> {
         let (h, t) = (2 * edge, 2 * edge + 1);
         let index = |squares: [f64; 3], doubled_area: f64| squares.iter().sum::<f64>() / doubled_area;
         let stored = |h: usize| {
-            let face = self.face[h];
-            index(self.squares(self.faces[face].first), self.doubled_area(face))
+            let face = self.face(h);
+            index(self.squares(self.faces[face].first as usize), self.doubled_area(face))
         };
-        let (after_h, after_t) = (self.next[h], self.next[t]);
+        let (after_h, after_t) = (self.next(h), self.next(t));
         let square = |h: usize| self.length[h / 2] * self.length[h / 2];
         let diagonal = flipped.length * flipped.length;
-        let near = index([diagonal, square(self.next[after_h]), square(after_t)], flipped.areas[0]);
-        let far = index([diagonal, square(self.next[after_t]), square(after_h)], flipped.areas[1]);
+        let near = index([diagonal, square(self.next(after_h)), square(after_t)], flipped.areas[0]);
+        let far = index([diagonal, square(self.next(after_t)), square(after_h)], flipped.areas[1]);
         near + far < stored(h) + stored(t)
     }
 
@@ -142,17 +142,20 @@ impl IntrinsicTriangulation<'_> {
     fn flip(&mut self, edge: usize, flipped: &OtherDiagonal) {
         let [_, c, _, d] = self.quadrilateral(edge);
         let (h, t) = (2 * edge, 2 * edge + 1);
-        let (bc, ad) = (self.next[h], self.next[t]);
-        let (ca, db) = (self.next[bc], self.next[ad]);
-        for [x, y, z] in [[h, ca, ad], [t, db, bc]] {
-            (self.next[x], self.next[y], self.next[z]) = (y, z, x);
+        let (bc, ad) = (self.next(h), self.next(t));
+        let (ca, db) = (self.next(bc), self.next(ad));
+        let (left, right) = (self.face(h), self.face(t));
+        for (ring, face) in [([h, ca, ad], left), ([t, db, bc], right)] {
+            for k in 0..3 {
+                let half_edge = &mut self.half_edges[ring[k]];
+                (half_edge.next, half_edge.face) = (ring[(k + 1) % 3] as u32, face as u32);
+            }
         }
-        (self.origin[h], self.origin[t]) = (d, c);
-        let (left, right) = (self.face[h], self.face[t]);
-        (self.face[ad], self.face[bc]) = (left, right);
-        let straight = self.is_planar();
-        self.faces[left] = Face { first: h, doubled_area: flipped.areas[0], straight, source: NONE };
-        self.faces[right] = Face { first: t, doubled_area: flipped.areas[1], straight, source: NONE };
+        (self.half_edges[h].origin, self.half_edges[t].origin) = (d as u32, c as u32);
+        let (straight, source) = (self.is_planar(), NONE);
+        for (face, first, doubled_area) in [(left, h, flipped.areas[0]), (right, t, flipped.areas[1])] {
+            self.faces[face] = Face { doubled_area, first: first as u32, source, straight };
+        }
         [edge, bc / 2, ca / 2, ad / 2, db / 2].into_iter().for_each(|e| self.touched[e] = true);
         self.length[edge] = flipped.length;
         self.flips += 1;
@@ -182,7 +185,7 @@ mod tests {
     fn sanity_check(t: &IntrinsicTriangulation) {
         for face in 0..t.face_count() {
             let ring = t.half_edges(face);
-            assert!(ring.iter().all(|&h| t.face(h) == face && t.next[t.next[t.next[h]]] == h));
+            assert!(ring.iter().all(|&h| t.face(h) == face && t.next(t.next(t.next(h))) == h));
             let [a, b, c] = ring.map(|h| t.length(h / 2));
             assert!(a < b + c && b < c + a && c < a + b, "triangle inequality in {face}: {a} {b} {c}");
             let s = 0.5 * (a + b + c);
@@ -192,8 +195,8 @@ mod tests {
         for edge in 0..t.edge_count() {
             for h in t.sides(edge) {
                 let other = h ^ 1;
-                if t.face[other] != NONE {
-                    assert_eq!(t.origin[h], t.origin[t.next[other]]);
+                if t.is_inside(other) {
+                    assert_eq!(t.origin(h), t.origin(t.next(other)));
                 }
             }
         }

@@ -1,8 +1,10 @@
 //! Small worlds, enumerated whole: every graph with few vertices, every triangulation of few lattice points.
 
 pub mod certified;
+pub mod cuts;
 pub mod descent;
 pub mod discs;
+pub mod drums;
 pub mod excerpt;
 pub mod five_points;
 pub mod graphs;

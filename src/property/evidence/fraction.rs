@@ -8,7 +8,7 @@ use crate::scalar::{Rational, Scalar};
 /// A rational number as text: decimal digits, perhaps with a minus before them and a denominator after, "-7" or "22/7".
 ///
 /// JSON has no such number, and an `f64` has not enough digits for one that equations have to hold of.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Fraction(String);
 

@@ -17,14 +17,10 @@ const WORST: f64 = 1e18;
 /// What rounding sees of a triangle.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Shape {
-    /// `1 / sin θ` at each corner.
-    pub inverse_sine: [f64; 3],
     /// `cot θ` at each corner.
     pub cotangent: [f64; 3],
     /// The triangle's share of the cotangent Laplacian's diagonal at each corner: `½ (cot θ_b + cot θ_c) = ℓ_a² / 4A > 0`.
     pub pull: [f64; 3],
-    /// The squared length opposite each corner.
-    pub squared_length: [f64; 3],
     /// The area.
     pub area: f64,
 }
@@ -38,27 +34,43 @@ impl Shape {
         if size == 0.0 {
             return None;
         }
-        let edges = edges.map(|e| e / size);
+        // Where fourth powers would leave the range the triangle is brought to size one.
+        let unit = if (1e-70..1e70).contains(&size) { 1.0 } else { size };
+        let edges = if unit == 1.0 { edges } else { edges.map(|e| e / unit) };
+        let size = size / unit;
         let squares = edges.map(|e| e.norm_squared());
-        let lengths = squares.map(f64::sqrt);
         // The cross product of the two shorter edges cancels least.
-        let longest = (0..3).fold(0, |best, a| if lengths[a] > lengths[best] { a } else { best });
+        let longest = (0..3).fold(0, |best, a| if squares[a] > squares[best] { a } else { best });
         let normal = edges[(longest + 1) % 3].cross(&edges[(longest + 2) % 3]);
-        // Scaled before it is squared: the square of a height of 1e-170 is zero.
-        let found = if normal.amax() > 0.0 { (normal / normal.amax()).norm() * normal.amax() } else { 0.0 };
-        if found < 1e-10 && geometry::collinear(corners[0].into(), corners[1].into(), corners[2].into()) {
+        let found = match normal.norm_squared() {
+            square if square > 1e-290 => square.sqrt(),
+            // Scaled before it is squared: the square of a height of 1e-170 is zero.
+            _ if normal.amax() > 0.0 => (normal / normal.amax()).norm() * normal.amax(),
+            _ => 0.0,
+        };
+        let square = size * size;
+        if found < 1e-10 * square && geometry::collinear(corners[0].into(), corners[1].into(), corners[2].into()) {
             return None;
         }
-        let doubled = found.max(1.0 / WORST);
-        let (next, last) = ([1, 2, 0], [2, 0, 1]);
-        let per_corner = |f: &dyn Fn(usize) -> f64| [f(0), f(1), f(2)];
+        let inverse = 1.0 / found.max(square / WORST);
+        let cotangent = |a: usize| -edges[(a + 1) % 3].dot(&edges[(a + 2) % 3]) * inverse;
         Some(Shape {
-            inverse_sine: per_corner(&|a| (lengths[next[a]] * lengths[last[a]] / doubled).clamp(1.0, WORST)),
-            cotangent: per_corner(&|a| -edges[next[a]].dot(&edges[last[a]]) / doubled),
-            pull: per_corner(&|a| squares[a] / (2.0 * doubled)),
-            squared_length: squares.map(|s| s * size * size),
-            area: 0.5 * found * size * size,
+            cotangent: [cotangent(0), cotangent(1), cotangent(2)],
+            pull: squares.map(|s| 0.5 * s * inverse),
+            area: 0.5 * found * unit * unit,
         })
+    }
+
+    /// `1 / sin² θ` at a corner.
+    #[inline]
+    pub fn squared_cosecant(&self, corner: usize) -> f64 {
+        1.0 + self.cotangent[corner] * self.cotangent[corner]
+    }
+
+    /// The squared length opposite a corner.
+    #[inline]
+    pub fn squared_length(&self, corner: usize) -> f64 {
+        4.0 * self.area * self.pull[corner]
     }
 
     /// The shape of a face of a surface; `None` if it is no triangle, or degenerate.
@@ -68,7 +80,8 @@ impl Shape {
 
     /// `1 / sin θ_min`.
     pub fn condition(&self) -> f64 {
-        self.inverse_sine.iter().copied().fold(1.0, f64::max)
+        let largest = self.cotangent.iter().fold(0.0_f64, |largest, cot| largest.max(cot.abs()));
+        (1.0 + largest * largest).sqrt().min(WORST)
     }
 }
 
@@ -83,27 +96,58 @@ pub(crate) fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
 /// The conditions of a domain, gathered at vertices and edges.
 #[derive(Clone, Debug)]
 pub(crate) struct Condition {
-    /// At each vertex the largest Q of the elements there, at least 1.
-    pub vertices: Vec<f64>,
-    /// At each vertex the length of the shortest edge of the elements there; infinite where there is no element.
-    pub shortest: Vec<f64>,
-    /// At each vertex whether an element there is degenerate.
-    pub degenerate: Vec<bool>,
+    /// What the elements at each vertex come to.
+    pub stars: Vec<Star>,
     /// What triangles add.
     pub triangles: Option<Triangles>,
+}
+
+/// What the elements at a vertex come to.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Star {
+    /// The largest Q, at least 1.
+    pub condition: f64,
+    /// The length of the shortest edge; infinite where there is no element.
+    pub shortest: f64,
+    /// `σ = Σ ½ (cot θ_b + cot θ_c)` over the triangles, the diagonal of the cotangent Laplacian.
+    pub pull: f64,
+    /// Whether an element is degenerate.
+    pub degenerate: bool,
+}
+
+impl Default for Star {
+    fn default() -> Self {
+        Star { condition: 1.0, shortest: f64::INFINITY, pull: 0.0, degenerate: false }
+    }
+}
+
+impl Star {
+    /// Adds an element with its condition, `None` for a degenerate one, and its shortest edge.
+    fn add(&mut self, condition: Option<f64>, shortest: f64) {
+        self.shortest = self.shortest.min(shortest);
+        match condition {
+            Some(q) => self.condition = self.condition.max(q),
+            None => self.degenerate = true,
+        }
+    }
 }
 
 /// What only triangle surfaces have.
 #[derive(Clone, Debug)]
 pub(crate) struct Triangles {
-    /// At each edge the largest Q of the triangles beside it.
-    pub edge_condition: Vec<f64>,
-    /// At each edge `ρ = Σ 1/sin² θ` over the angles opposite.
-    pub opposite: Vec<f64>,
-    /// At each vertex `σ = Σ ½ (cot θ_b + cot θ_c)`, the diagonal of the cotangent Laplacian.
-    pub pull: Vec<f64>,
+    /// What the triangles beside each edge come to.
+    pub flanks: Vec<Flanks>,
     /// The triangles.
     pub faces: Vec<Element>,
+}
+
+/// What the triangles beside an edge come to.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Flanks {
+    /// The largest Q, at least 1.
+    pub condition: f64,
+    /// `ρ = Σ 1/sin² θ` over the angles opposite.
+    pub opposite: f64,
 }
 
 impl Condition {
@@ -118,24 +162,12 @@ impl Condition {
 
     /// Of a domain without elements.
     fn perfect(n: usize) -> Self {
-        let (vertices, shortest, degenerate) = (vec![1.0; n], vec![f64::INFINITY; n], vec![false; n]);
-        Condition { vertices, shortest, degenerate, triangles: None }
-    }
-
-    /// Adds an element with its condition, `None` for a degenerate one, and its shortest edge.
-    fn add(&mut self, corners: &[usize], q: Option<f64>, shortest: f64) {
-        for &v in corners {
-            self.shortest[v] = self.shortest[v].min(shortest);
-            match q {
-                Some(q) => self.vertices[v] = self.vertices[v].max(q),
-                None => self.degenerate[v] = true,
-            }
-        }
+        Condition { stars: vec![Star::default(); n], triangles: None }
     }
 
     /// The worst condition of the whole domain.
     pub fn worst(&self) -> f64 {
-        self.vertices.iter().copied().fold(1.0, f64::max)
+        self.stars.iter().map(|star| star.condition).fold(1.0, f64::max)
     }
 }
 
@@ -143,53 +175,43 @@ impl Condition {
 fn of_surface(surface: &Surface) -> Condition {
     let topology = surface.topology();
     let faces = parallel::collect(surface.faces().len(), |face| Element::of(surface, face));
-    let (n, edges) = (surface.positions().len(), topology.edges().len());
-    let at_vertex = |v: usize| topology.star(v).iter().map(|c| (&faces[c.face()], c.corner()));
-    // Condition, shortest side, whether one is degenerate, pull: each star is walked once.
     let around = |v: usize| {
-        let (mut worst, mut shortest, mut degenerate, mut pull) = (1.0, f64::INFINITY, false, 0.0);
-        for (face, corner) in at_vertex(v) {
-            shortest = f64::min(shortest, face.shortest);
-            match face.condition {
-                Some(q) => worst = f64::max(worst, q),
-                None => degenerate = true,
-            }
-            if let Some(shape) = &face.shape {
-                pull += shape.pull[corner];
+        let mut star = Star::default();
+        for corner in topology.star(v) {
+            let face = &faces[corner.face()];
+            star.add(face.condition(), face.shortest);
+            if let Some(shape) = face.shape() {
+                star.pull += shape.pull[corner.corner()];
             }
         }
-        (worst, shortest, degenerate, pull)
+        star
     };
     let beside = |e: usize| {
-        let (mut worst, mut squares) = (1.0, 0.0);
+        let mut flanks = Flanks { condition: 1.0, opposite: 0.0 };
         for side in topology.sides(e) {
             let face = &faces[side.face()];
-            if let (Some(shape), Some(q)) = (&face.shape, face.condition) {
-                worst = f64::max(worst, q);
-                squares += shape.inverse_sine[(side.corner() + 2) % 3].powi(2);
+            if let (Some(shape), Some(q)) = (face.shape(), face.condition()) {
+                flanks.condition = flanks.condition.max(q);
+                flanks.opposite += shape.squared_cosecant((side.corner() + 2) % 3);
             }
         }
-        (worst, squares)
+        flanks
     };
-    let mut condition = Condition::perfect(n);
-    let mut pull = vec![0.0; n];
-    for (v, found) in parallel::collect(n, around).into_iter().enumerate() {
-        (condition.vertices[v], condition.shortest[v], condition.degenerate[v], pull[v]) = found;
+    let stars = parallel::collect(surface.positions().len(), around);
+    if !surface.is_triangulated() {
+        return Condition { stars, triangles: None };
     }
-    if surface.is_triangulated() {
-        let (edge_condition, opposite) = parallel::collect(edges, beside).into_iter().unzip();
-        condition.triangles = Some(Triangles { edge_condition, opposite, pull, faces });
-    }
-    condition
+    let flanks = parallel::collect(topology.edges().len(), beside);
+    Condition { stars, triangles: Some(Triangles { flanks, faces }) }
 }
 
-/// What the vertices and edges of a face gather from it; of a polygon with more corners there is no shape.
-#[derive(Clone, Debug)]
+/// What the vertices and edges of a face gather from it.
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Element {
-    /// Its shape, if it is a proper triangle.
-    pub shape: Option<Shape>,
-    /// Its condition; `None` if it is degenerate.
-    pub condition: Option<f64>,
+    /// NaN where it is no proper triangle.
+    shape: Shape,
+    /// NaN where it is degenerate.
+    condition: f64,
     shortest: f64,
 }
 
@@ -197,11 +219,35 @@ impl Element {
     fn of(surface: &Surface, face: usize) -> Self {
         let corners = &surface.faces()[face];
         let at = |k: usize| surface.positions()[corners[if k == corners.len() { 0 } else { k }]];
-        let shortest = (0..corners.len()).map(|k| distance(at(k), at(k + 1))).fold(f64::INFINITY, f64::min);
-        let shape = Shape::of_face(surface, face);
-        let condition = shape.as_ref().map(Shape::condition).or_else(|| of_polygon(surface, face));
-        Element { shape, condition, shortest }
+        let shortest = shortest((0..corners.len()).map(|k| [at(k), at(k + 1)]));
+        match Shape::of_face(surface, face) {
+            Some(shape) => Element { shape, condition: shape.condition(), shortest },
+            None => {
+                let shape = Shape { cotangent: [f64::NAN; 3], pull: [f64::NAN; 3], area: f64::NAN };
+                Element { shape, condition: of_polygon(surface, face).unwrap_or(f64::NAN), shortest }
+            }
+        }
     }
+
+    /// Its shape, if it is a proper triangle.
+    #[inline]
+    pub fn shape(&self) -> Option<&Shape> {
+        (!self.shape.area.is_nan()).then_some(&self.shape)
+    }
+
+    /// Its condition; `None` if it is degenerate.
+    #[inline]
+    pub fn condition(&self) -> Option<f64> {
+        (!self.condition.is_nan()).then_some(self.condition)
+    }
+}
+
+/// The shortest of some distances.
+fn shortest(sides: impl Iterator<Item = [[f64; 3]; 2]> + Clone) -> f64 {
+    let squared = |[a, b]: [[f64; 3]; 2]| (0..3).map(|k| (a[k] - b[k]) * (a[k] - b[k])).sum::<f64>();
+    let least = sides.clone().map(squared).fold(f64::INFINITY, f64::min);
+    // Where squares keep their digits their order is that of the lengths.
+    if least > 1e-280 { least.sqrt() } else { sides.map(|[a, b]| distance(a, b)).fold(f64::INFINITY, f64::min) }
 }
 
 /// The condition of a face with more than three corners; `None` for a triangle or a polygon without area.
@@ -232,7 +278,7 @@ fn of_volume(volume: &Volume) -> Condition {
         let q = (1.0 / (determinant * smallest)).clamp(1.0, WORST);
         let [a, b, c, d] = tet.map(|v| volume.positions()[v]);
         let proper = q.is_finite() && geometry::orient3d(a, b, c, d).is_ne();
-        condition.add(tet, proper.then_some(q), shortest);
+        tet.iter().for_each(|&v| condition.stars[v].add(proper.then_some(q), shortest));
     }
     condition
 }
@@ -246,10 +292,10 @@ mod tests {
         for size in [1.0, 1e-140, 1e140] {
             let s = Shape::of([Vec3::zeros(), Vec3::x() * size, Vec3::y() * size]).unwrap();
             let root = 2f64.sqrt();
-            for (found, expected) in s.inverse_sine.iter().zip([1.0, root, root]) {
-                assert!((found - expected).abs() < 1e-15);
-            }
+            assert_eq!([0, 1, 2].map(|c| s.squared_cosecant(c)), [1.0, 2.0, 2.0]);
+            assert!((s.condition() - root).abs() < 1e-15);
             assert_eq!((s.cotangent, s.pull), ([0.0, 1.0, 1.0], [1.0, 0.5, 0.5]));
+            assert!((s.squared_length(0) / (2.0 * size * size) - 1.0).abs() < 1e-15);
             assert!((s.area / (0.5 * size * size) - 1.0).abs() < 1e-15);
         }
     }
@@ -268,10 +314,11 @@ mod tests {
     fn the_condition_of_an_equilateral_triangle_is_two_over_the_root_of_three_and_a_flat_one_has_none() {
         let of = |p: &[[f64; 2]; 3]| Condition::of(&Surface::planar(p, &[[0, 1, 2]]).unwrap().into());
         let equilateral = of(&[[0.0, 0.0], [1.0, 0.0], [0.5, 0.75_f64.sqrt()]]);
-        assert!((equilateral.vertices[0] - 2.0 / 3f64.sqrt()).abs() < 1e-15);
-        assert!((equilateral.shortest[2] - 1.0).abs() < 1e-15 && !equilateral.degenerate[0]);
+        assert!((equilateral.stars[0].condition - 2.0 / 3f64.sqrt()).abs() < 1e-15);
+        assert!((equilateral.stars[2].shortest - 1.0).abs() < 1e-15 && !equilateral.stars[0].degenerate);
         let flat = of(&[[0.0, 0.0], [1.0, 0.0], [3.0, 0.0]]);
-        assert_eq!((flat.vertices[1], flat.shortest[1], flat.degenerate[1]), (1.0, 1.0, true));
+        let flat = flat.stars[1];
+        assert_eq!((flat.condition, flat.shortest, flat.degenerate), (1.0, 1.0, true));
     }
 
     #[test]

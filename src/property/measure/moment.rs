@@ -68,7 +68,7 @@ pub(crate) fn is_proper_star(trial: &Trial, surface: &Surface, vertex: usize, bo
     let topology = surface.topology();
     let star = topology.star(vertex);
     let proper = || match surface.is_triangulated() {
-        true => !trial.scales().geometry().degenerate[vertex],
+        true => !trial.scales().geometry().stars[vertex].degenerate,
         false => star.iter().all(|c| proper_triangle(surface, c.face()).is_some()),
     };
     let (mut all, mut ones, mut twos) = (0, 0, 0);

@@ -11,71 +11,67 @@ use crate::property::Trial;
 
 /// What rounding explains, row by row.
 pub(crate) struct Rounding {
-    rows: Vec<Threshold>,
-    scales: Vec<f64>,
-    quality: Vec<f64>,
-    shortest: Vec<f64>,
-    degenerate: Vec<bool>,
+    rows: Vec<Row>,
     literal: bool,
+}
+
+struct Row {
+    /// Relative to the scale.
+    threshold: Threshold,
+    scale: f64,
+    quality: f64,
+    shortest: f64,
+    degenerate: bool,
 }
 
 impl Rounding {
     /// Of the operator on trial; kept by [`Trial::rounding`]. Cost: O(nnz).
     pub fn of(trial: &Trial) -> Self {
-        let (matrix, at) = (trial.operator.stiffness(), trial.scales().geometry());
+        let (matrix, scales) = (trial.operator.stiffness(), trial.scales());
         let row = |i: usize| {
-            let (mut q, mut shortest, mut degenerate) = (1.0, f64::INFINITY, false);
+            let (mut quality, mut shortest, mut degenerate) = (1.0, f64::INFINITY, false);
             let columns = matrix.row_slices(i).0;
             for &j in columns.iter().chain([&i]) {
-                q = f64::max(q, at.vertices[j]);
-                shortest = f64::min(shortest, at.shortest[j]);
-                degenerate |= at.degenerate[j];
+                let star = &scales.geometry().stars[j];
+                quality = f64::max(quality, star.condition);
+                shortest = f64::min(shortest, star.shortest);
+                degenerate |= star.degenerate;
             }
-            (Threshold::over(1.0, columns.len(), q), q, shortest, degenerate)
+            let threshold = Threshold::over(1.0, columns.len(), quality);
+            Row { threshold, scale: scales.rows[i], quality, shortest, degenerate }
         };
-        let n = matrix.rows();
-        let mut rounding = Rounding {
-            rows: Vec::with_capacity(n),
-            scales: trial.scales().rows.clone(),
-            quality: Vec::with_capacity(n),
-            shortest: Vec::with_capacity(n),
-            degenerate: Vec::with_capacity(n),
-            literal: trial.has_literal_signs(),
-        };
-        for (threshold, q, shortest, degenerate) in parallel::collect(n, row) {
-            rounding.rows.push(threshold);
-            rounding.quality.push(q);
-            rounding.shortest.push(shortest);
-            rounding.degenerate.push(degenerate);
-        }
-        rounding
+        Rounding { rows: parallel::collect(matrix.rows(), row), literal: trial.has_literal_signs() }
     }
 
     /// The thresholds of row i, relative to its scale.
     pub fn row(&self, i: usize) -> Threshold {
-        self.rows[i]
+        self.rows[i].threshold
     }
 
     /// The same where coordinates were moved by `displaced`; infinite beside a degenerate face, which may have become a proper
     /// one.
     pub fn row_displaced(&self, i: usize, displaced: f64) -> Threshold {
-        let own = self.rows[i];
+        let own = &self.rows[i];
         if displaced == 0.0 {
-            return own;
+            return own.threshold;
         }
-        let quality = if self.degenerate[i] { f64::INFINITY } else { self.quality[i] };
-        own.plus(Threshold::of_displacement(quality, displaced / self.shortest[i]))
+        let quality = if own.degenerate { f64::INFINITY } else { own.quality };
+        own.threshold.plus(Threshold::of_displacement(quality, displaced / own.shortest))
     }
 
     /// The condition of the worst element at a vertex or at a vertex of its row; 1 where the domain has no elements.
     pub fn quality(&self, i: usize) -> f64 {
-        self.quality[i]
+        self.rows[i].quality
     }
 
     /// The sign of the weight `−value` of the entry `L_ij = value` off the diagonal.
     pub fn weight(&self, i: usize, value: f64) -> Sign {
-        let threshold = if self.literal { Threshold::NONE } else { self.rows[i].times(self.scales[i]) };
-        threshold.sign(-value)
+        self.signs(i).sign(-value)
+    }
+
+    /// What the weights of row i must exceed for their sign to be clear.
+    pub fn signs(&self, i: usize) -> Threshold {
+        if self.literal { Threshold::NONE } else { self.rows[i].threshold.times(self.rows[i].scale) }
     }
 }
 

@@ -76,6 +76,14 @@ impl<P> Scan<P> {
         self
     }
 
+    /// Looks at a place without any residual, whose threshold is finite: it is asked for only where this is the first place.
+    pub fn pass(&mut self, place: P, threshold: impl FnOnce() -> Threshold) {
+        match self.worst {
+            Some(_) => self.tally.total += 1,
+            None => self.look(place, 0.0, threshold()),
+        }
+    }
+
     /// Looks at a place. Of equally bad ones the first is kept.
     pub fn look(&mut self, place: P, residual: f64, threshold: Threshold) {
         let finding = Finding { place, residual, threshold };

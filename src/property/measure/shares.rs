@@ -41,15 +41,16 @@ pub(crate) struct Share {
 /// The signed circumcentric part of a corner.
 pub(crate) fn voronoi(shape: &Shape, corner: usize) -> f64 {
     let (b, c) = ((corner + 1) % 3, (corner + 2) % 3);
-    0.125 * (shape.squared_length[b] * shape.cotangent[b] + shape.squared_length[c] * shape.cotangent[c])
+    0.125 * (shape.squared_length(b) * shape.cotangent[b] + shape.squared_length(c) * shape.cotangent[c])
 }
 
-/// The mixed part of a corner.
-fn mixed(shape: &Shape, corner: usize) -> f64 {
-    match shape.cotangent.iter().position(|&cot| cot < 0.0) {
-        Some(obtuse) if obtuse == corner => 0.5 * shape.area,
-        Some(_) => 0.25 * shape.area,
-        None => voronoi(shape, corner),
+/// The mixed part of a corner, whose circumcentric part is known.
+fn mixed(shape: &Shape, corner: usize, voronoi: f64) -> f64 {
+    let [x, y, z] = shape.cotangent;
+    match () {
+        () if x >= 0.0 && y >= 0.0 && z >= 0.0 => voronoi,
+        () if shape.cotangent[corner] < 0.0 => 0.5 * shape.area,
+        () => 0.25 * shape.area,
     }
 }
 
@@ -59,30 +60,28 @@ pub(crate) fn of(surface: &Surface, scales: &Scales) -> Vec<Share> {
     let topology = surface.topology();
     let faces = surface.faces();
     let known = scales.geometry().triangles.as_ref().map(|t| &t.faces);
-    let shape = |face: usize| match known {
-        Some(known) => known[face].shape,
-        None => Shape::of_face(surface, face),
-    };
     parallel::collect(surface.positions().len(), |v| {
         let (mut s, mut circumscribed) = (Share::default(), 0.0);
         for at in topology.star(v) {
             let (face, corner) = (at.face(), at.corner());
-            let Some(shape) = shape(face) else {
+            let of_polygons = if known.is_none() { Shape::of_face(surface, face) } else { None };
+            let Some(shape) = known.map_or(of_polygons.as_ref(), |known| known[face].shape()) else {
                 if faces[face].len() > 3 {
                     s.star += surface.face_area(face);
                     s.upper += surface.face_area(face);
                 }
                 continue;
             };
-            let part = voronoi(&shape, corner);
+            let part = voronoi(shape, corner);
             s.star += shape.area;
-            s.third += shape.area / 3.0;
+            s.third += shape.area;
             s.voronoi += part;
-            s.mixed += mixed(&shape, corner);
+            s.mixed += mixed(shape, corner, part);
             s.lower += part.min(0.25 * shape.area);
             s.upper += part.max(0.5 * shape.area);
-            circumscribed += shape.squared_length[corner] * shape.inverse_sine[corner].powi(2);
+            circumscribed += shape.squared_length(corner) * shape.squared_cosecant(corner);
         }
+        s.third /= 3.0;
         let q = scales.condition(v);
         s.threshold = Threshold::over(s.star, topology.star(v).len(), q);
         // ⅛ b² cot β is off by ⅛ b²·8u/sin² β = u D², D the circumdiameter, in each of two terms; as much again for ours.
@@ -92,28 +91,33 @@ pub(crate) fn of(surface: &Surface, scales: &Scales) -> Vec<Share> {
     })
 }
 
-/// The total area, and what a total is measured against as far as the area's own rounding goes.
+/// The total area, and what a total is measured against as far as the area's own rounding goes; kept by
+/// [`Trial::area`](crate::property::Trial).
 pub(crate) fn area(surface: &Surface, scales: &Scales) -> (f64, Threshold) {
-    let mut total = Sum::default();
-    let mut threshold = Threshold::NONE;
-    let mut add = |area: f64, corners: usize, q: f64| {
-        total.add(area);
-        threshold = threshold.plus(Threshold::over(area, corners, q));
-    };
-    match &scales.geometry().triangles {
+    let face = |face: usize| match &scales.geometry().triangles {
         Some(triangles) => {
-            let area = |f: &Element| f.shape.map_or(0.0, |s| s.area);
-            triangles.faces.iter().for_each(|f| add(area(f), 3, f.condition.unwrap_or(1.0)));
+            let element: &Element = &triangles.faces[face];
+            (element.shape().map_or(0.0, |s| s.area), element.condition().unwrap_or(1.0))
         }
-        None => {
-            for (face, corners) in surface.faces().iter().enumerate() {
-                match Shape::of_face(surface, face) {
-                    Some(shape) => add(shape.area, corners.len(), shape.condition()),
-                    None if corners.len() == 3 => add(0.0, 3, 1.0),
-                    None => add(surface.face_area(face), corners.len(), 1.0),
-                }
-            }
+        None => match Shape::of_face(surface, face) {
+            Some(shape) => (shape.area, shape.condition()),
+            None if surface.faces()[face].len() == 3 => (0.0, 1.0),
+            None => (surface.face_area(face), 1.0),
+        },
+    };
+    let block = |range: std::ops::Range<usize>| {
+        let (mut total, mut threshold) = (Sum::default(), Threshold::NONE);
+        for at in range {
+            let (area, q) = face(at);
+            total.add(area);
+            threshold = threshold.plus(Threshold::over(area, surface.faces()[at].len(), q));
         }
+        (total, threshold)
+    };
+    let (mut total, mut threshold) = (Sum::default(), Threshold::NONE);
+    for (area, explained) in parallel::blocks(surface.faces().len(), block) {
+        total.add_sum(area);
+        threshold = threshold.plus(explained);
     }
     (total.value(), threshold)
 }
@@ -146,7 +150,7 @@ mod tests {
             let s = shape(apex);
             let total = |part: &dyn Fn(usize) -> f64| (0..3).map(part).sum::<f64>();
             assert!((total(&|c| voronoi(&s, c)) / s.area - 1.0).abs() < 1e-9, "{apex:?}");
-            assert!((total(&|c| mixed(&s, c)) / s.area - 1.0).abs() < 1e-12, "{apex:?}");
+            assert!((total(&|c| mixed(&s, c, voronoi(&s, c))) / s.area - 1.0).abs() < 1e-12, "{apex:?}");
         }
     }
 
@@ -162,7 +166,7 @@ mod tests {
             for c in 0..3 {
                 let f = 0.25 * (1.0 + s.cotangent[(c + 1) % 3] * s.cotangent[(c + 2) % 3]);
                 assert!((voronoi(&s, c) - f * s.area).abs() < 1e-12 * (1.0 + f.abs()));
-                let relative = mixed(&s, c) / s.area;
+                let relative = mixed(&s, c, voronoi(&s, c)) / s.area;
                 assert!((0.25 - 1e-12..=0.5 + 1e-12).contains(&relative));
             }
         }

@@ -184,12 +184,17 @@ impl Threshold {
 pub struct Scales {
     /// `s_i = Σ_k |L_ik|`.
     pub rows: Vec<f64>,
-    row_lengths: Vec<usize>,
-    leaves_stencil: Vec<bool>,
-    /// The condition that each row is measured with.
-    measured: Vec<f64>,
+    own: Vec<Row>,
     condition: Condition,
     kind: DomainKind,
+}
+
+/// What a row is measured with.
+#[derive(Clone, Copy)]
+struct Row {
+    condition: f64,
+    length: u32,
+    leaves_stencil: bool,
 }
 
 impl Scales {
@@ -201,25 +206,19 @@ impl Scales {
     /// The same where the stencil of the domain is at hand.
     pub(crate) fn with_stencil(domain: &Domain, stiffness: &Csr, stencil: &Stencil) -> Self {
         let condition = Condition::of(domain);
-        let local = domain.kind() != DomainKind::Points;
-        let leaves = |i| local && stencil.far_entries(stiffness, i).next().is_some();
-        let leaves_stencil: Vec<bool> = parallel::collect(stiffness.rows(), leaves);
-        let worst = condition.worst();
-        let own = condition.vertices.iter().zip(&leaves_stencil);
-        let measured = own.map(|(&q, &leaves)| if leaves { worst } else { q }).collect();
-        Scales {
-            rows: stiffness.row_scales(),
-            row_lengths: (0..stiffness.rows()).map(|i| stiffness.row(i).len()).collect(),
-            leaves_stencil,
-            measured,
-            condition,
-            kind: domain.kind(),
-        }
+        let (local, worst) = (domain.kind() != DomainKind::Points, condition.worst());
+        let row = |i: usize| {
+            let leaves_stencil = local && stencil.far_entries(stiffness, i).next().is_some();
+            let condition = if leaves_stencil { worst } else { condition.stars[i].condition };
+            Row { condition, length: stiffness.row_slices(i).0.len() as u32, leaves_stencil }
+        };
+        let own = parallel::collect(stiffness.rows(), row);
+        Scales { rows: stiffness.row_scales(), own, condition, kind: domain.kind() }
     }
 
     /// The condition Q_i that row i is measured with.
     pub fn condition(&self, i: usize) -> f64 {
-        self.measured[i]
+        self.own[i].condition
     }
 
     /// The conditioning of the domain itself.
@@ -229,12 +228,12 @@ impl Scales {
 
     /// Whether row i has a non-zero entry off the stencil.
     pub fn leaves_stencil(&self, i: usize) -> bool {
-        self.leaves_stencil[i]
+        self.own[i].leaves_stencil
     }
 
     /// For a linear combination of the entries of row i whose terms have magnitudes that add up to `size`.
     pub fn combination(&self, i: usize, size: f64) -> Threshold {
-        Threshold::over(size, self.row_lengths[i], self.measured[i])
+        Threshold::over(size, self.own[i].length as usize, self.own[i].condition)
     }
 
     /// For the sum of row i.
@@ -248,18 +247,16 @@ impl Scales {
             let explained = 4.0 * UNIT_ROUNDOFF * value.abs();
             return Threshold { explained, defect: 4.0 * explained };
         }
-        let (Some(t), Some(edge), false) = (&self.condition.triangles, edge, self.leaves_stencil[i]) else {
+        let (Some(t), Some(edge), false) = (&self.condition.triangles, edge, self.own[i].leaves_stencil) else {
             return self.row(i);
         };
-        if t.pull[i] == 0.0 {
+        let (pull, flanks) = (self.condition.stars[i].pull, &t.flanks[edge]);
+        if pull == 0.0 {
             return self.row(i);
         }
-        let unit = self.rows[i] / (2.0 * t.pull[i]);
-        let bound = 4.0 * UNIT_ROUNDOFF * (value.abs() + t.opposite[edge] * unit);
-        Threshold {
-            explained: bound.min(LARGEST_EXPLAINED * self.rows[i]),
-            defect: 4.0 * t.edge_condition[edge] * bound,
-        }
+        let unit = self.rows[i] / (2.0 * pull);
+        let bound = 4.0 * UNIT_ROUNDOFF * (value.abs() + flanks.opposite * unit);
+        Threshold { explained: bound.min(LARGEST_EXPLAINED * self.rows[i]), defect: 4.0 * flanks.condition * bound }
     }
 
     /// For the sign of the entry `value` at (i, j), where no construction vouches for it.

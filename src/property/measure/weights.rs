@@ -34,6 +34,9 @@ pub(crate) struct Weight {
     pub value: f64,
     /// How far from zero it must be for its sign to be clear; nothing where signs are literal.
     pub threshold: Threshold,
+    /// The value over the scale of its row.
+    relative: f64,
+    sign: Sign,
 }
 
 /// An edge with its weights: one in each direction, or one where only one is defined.
@@ -66,20 +69,11 @@ struct Weights<'a> {
     literal: bool,
 }
 
-/// Which edges.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Part {
-    /// Interior edges and pairs that are no edges.
-    Interior,
-    /// Boundary edges.
-    Boundary,
-    /// Interior edges with both ends on the boundary.
-    Bridges,
-}
-
 impl<'a> Weights<'a> {
     /// Of the operator on trial. Cost: O(nnz log(row length)).
     fn of(trial: &'a Trial) -> Self {
+        // Computed before threads ask for it.
+        trial.mirror();
         let (matrix, edges, scales) = (trial.operator.stiffness(), trial.domain.edges(), trial.scales());
         let mut weights = Weights {
             trial,
@@ -89,7 +83,9 @@ impl<'a> Weights<'a> {
             unweighted: 0,
             literal: trial.has_literal_signs(),
         };
-        weights.unweighted = (0..edges.len()).filter(|&e| !weights.carries(e)).count();
+        if weights.own_edges {
+            weights.unweighted = (0..edges.len()).filter(|&e| !weights.carries(e)).count();
+        }
         // Where no row leaves the stencil and no face has diagonals, every entry is on an edge.
         let diagonals = trial.domain.as_surface().is_some_and(|s| !s.is_triangulated());
         if !(weights.own_edges || diagonals || trial.domain.kind() == DomainKind::Points) {
@@ -118,30 +114,32 @@ impl<'a> Weights<'a> {
     }
 
     fn weight(&self, i: usize, j: usize, edge: Option<usize>) -> Weight {
-        let value = -self.trial.operator.stiffness().at(i, j);
+        self.weigh(i, j, edge, self.trial.operator.stiffness().at(i, j))
+    }
+
+    /// The weight of an entry.
+    fn weigh(&self, i: usize, j: usize, edge: Option<usize>, entry: f64) -> Weight {
+        let value = -entry;
         let threshold = if self.literal { Threshold::NONE } else { self.trial.scales().sign(i, value, edge) };
-        Weight { i, j, value, threshold }
+        let relative = if value == 0.0 { 0.0 } else { value / self.trial.scales().rows[i] };
+        Weight { i, j, value, threshold, relative, sign: threshold.sign(value) }
     }
 
     /// The edge with this number, those of the domain first; `None` where it carries no weight.
     fn get(&self, k: usize) -> Option<Edge> {
         let edges = self.trial.domain.edges();
         let Some(&[i, j]) = edges.get(k) else { return self.beside.get(k - edges.len()).copied() };
+        let matrix = self.trial.operator.stiffness();
+        // As a rule the entries above the diagonal are those of the edges, one after the other.
+        let pair = self.trial.mirror().and_then(|mirror| mirror.pairs().get(k));
+        let pair = pair.map(|pair| pair.map(|at| at as usize));
+        if let Some([upper, lower]) = pair.filter(|at| [matrix.indices()[at[1]], matrix.indices()[at[0]]] == [i, j]) {
+            let [forth, back] = [matrix.values()[upper], matrix.values()[lower]];
+            let (first, second) = (self.weigh(i, j, Some(k), forth), self.weigh(j, i, Some(k), back));
+            return Some(Edge { number: Some(k), first, second: Some(second) });
+        }
         let both = || (self.weight(i, j, Some(k)), self.weight(j, i, Some(k)));
         self.carries(k).then(both).map(|(first, second)| Edge { number: Some(k), first, second: Some(second) })
-    }
-
-    /// Whether an edge belongs to a part.
-    fn belongs(&self, edge: &Edge, part: Part) -> bool {
-        let on_boundary = self.trial.domain.boundary();
-        let is_boundary = edge.number.is_some_and(|e| self.is_boundary[e]);
-        match part {
-            Part::Interior => !is_boundary,
-            Part::Boundary => is_boundary,
-            Part::Bridges => {
-                !is_boundary && edge.number.is_some() && on_boundary[edge.first.i] && on_boundary[edge.first.j]
-            }
-        }
     }
 
     /// Surveys all parts, block by block in parallel, the blocks in order: each weight is looked up once.
@@ -149,15 +147,15 @@ impl<'a> Weights<'a> {
         let count = self.trial.domain.edges().len() + self.beside.len();
         let block = |range: std::ops::Range<usize>| {
             let mut surveys = Surveys::default();
-            range.filter_map(|k| self.get(k)).for_each(|edge| surveys.each(|survey| survey.look(self, &edge)));
+            range.filter_map(|k| self.get(k)).for_each(|edge| surveys.look(self, &edge));
             surveys
         };
         let mut surveys = Surveys::default();
         for found in parallel::blocks(count, block) {
-            surveys.strict.add(self, found.strict);
-            surveys.weak.add(self, found.weak);
-            surveys.boundary.add(self, found.boundary);
-            surveys.bridges.add(self, found.bridges);
+            surveys.strict.add(found.strict);
+            surveys.weak.add(found.weak);
+            surveys.boundary.add(found.boundary);
+            surveys.bridges.add(found.bridges);
         }
         surveys
     }
@@ -211,86 +209,80 @@ pub(crate) enum Class {
     Fine,
 }
 
-/// The strict predicate `ω > 0`; a weight that rounding cannot tell from zero is open, for only an exact zero is one.
-fn strict(w: &Weight) -> Class {
-    match w.threshold.sign(w.value) {
-        _ if w.value == 0.0 => Class::Zero,
-        Sign::Zero | Sign::Open => Class::Open,
-        Sign::Negative => Class::Violation,
-        Sign::Positive => Class::Fine,
-    }
+/// What is asked of a weight.
+#[derive(Clone, Copy, Debug)]
+enum Predicate {
+    /// `ω > 0`; a weight that rounding cannot tell from zero is open, for only an exact zero is one.
+    Strict,
+    /// `ω ≥ 0`; what rounding explains is zero.
+    Weak,
 }
 
-/// The weak predicate `ω ≥ 0`; what rounding explains is zero.
-fn weak(w: &Weight) -> Class {
-    match w.threshold.sign(w.value) {
-        Sign::Zero => Class::Zero,
-        Sign::Negative => Class::Violation,
-        Sign::Open if w.value < 0.0 => Class::Open,
-        Sign::Open | Sign::Positive => Class::Fine,
+impl Predicate {
+    /// The class of a weight, and how bad that is. Worst first: under the strict predicate a negative weight, a zero, a sign that is not
+    /// clear; under the weak one a negative weight, one that is open, a zero.
+    fn class(self, w: &Weight) -> (Class, u8) {
+        match (self, w.sign) {
+            (Predicate::Strict, _) if w.value == 0.0 => (Class::Zero, 1),
+            (Predicate::Strict, Sign::Zero | Sign::Open) => (Class::Open, 2),
+            (Predicate::Weak, Sign::Zero) => (Class::Zero, 2),
+            (Predicate::Weak, Sign::Open) if w.value < 0.0 => (Class::Open, 1),
+            (_, Sign::Negative) => (Class::Violation, 0),
+            (Predicate::Weak, Sign::Open) | (_, Sign::Positive) => (Class::Fine, 3),
+        }
+    }
+
+    /// How bad a weight is: the less, the worse. Of one class it is the more negative one relative to its row.
+    fn order(self, w: &Weight) -> (u8, f64) {
+        (self.class(w).1, w.relative)
     }
 }
-
-/// Worst first: a negative weight, a zero, a sign that is not clear.
-const STRICT: [Class; 4] = [Class::Violation, Class::Zero, Class::Open, Class::Fine];
-
-/// Worst first: a negative weight, one that is open, a zero.
-const WEAK: [Class; 4] = [Class::Violation, Class::Open, Class::Zero, Class::Fine];
 
 /// What the edges of a part come to under a predicate.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Survey {
-    part: Part,
-    class: fn(&Weight) -> Class,
-    order: [Class; 4],
+    predicate: Predicate,
     /// The classes, an edge being of its worse direction's.
     pub tally: Tally,
-    /// The worst weight and its edge: that of the worst class which is the most negative relative to its row.
+    /// The worst weight and its edge.
     worst: Option<(Edge, Weight)>,
     /// The largest margin of a negative weight.
     margin: f64,
 }
 
 impl Survey {
-    fn new(part: Part, class: fn(&Weight) -> Class, order: [Class; 4]) -> Self {
-        Survey { part, class, order, tally: Tally::default(), worst: None, margin: 0.0 }
+    fn new(predicate: Predicate) -> Self {
+        Survey { predicate, tally: Tally::default(), worst: None, margin: 0.0 }
     }
 
-    fn worse(&self, weights: &Weights, a: &Weight, b: &Weight) -> bool {
-        let scales = &weights.trial.scales().rows;
-        let rank = |w: &Weight| self.order.iter().position(|&o| o == (self.class)(w)).unwrap_or(self.order.len());
-        let relative = |w: &Weight| if w.value == 0.0 { 0.0 } else { w.value / scales[w.i] };
-        let (x, y) = (rank(a), rank(b));
-        x < y || (x == y && relative(a) < relative(b))
-    }
-
-    fn look(&mut self, weights: &Weights, edge: &Edge) {
-        if !weights.belongs(edge, self.part) {
-            return;
-        }
+    fn look(&mut self, edge: &Edge) {
         self.tally.total += 1;
-        self.margin = edge.weights().fold(self.margin, |m, w| m.max(w.threshold.margin((-w.value).max(0.0))));
-        let Some(w) = edge.weights().reduce(|a, b| if self.worse(weights, b, a) { b } else { a }) else { return };
-        match (self.class)(w) {
+        for w in edge.weights().filter(|w| w.value < 0.0) {
+            self.margin = self.margin.max(w.threshold.margin(-w.value));
+        }
+        let order = |w: &Weight| self.predicate.order(w);
+        let Some(w) = edge.weights().reduce(|a, b| if order(b) < order(a) { b } else { a }) else { return };
+        match self.predicate.class(w).0 {
             Class::Violation => self.tally.violations += 1,
             Class::Zero => self.tally.zeros += 1,
             Class::Open => self.tally.undecided += 1,
             Class::Fine => {}
         }
-        if self.worst.as_ref().is_none_or(|(_, known)| self.worse(weights, w, known)) {
+        if self.worst.as_ref().is_none_or(|(_, known)| order(w) < order(known)) {
             self.worst = Some((*edge, *w));
         }
     }
 
     /// What comes of looking at the edges of both, those of `self` first.
-    fn add(&mut self, weights: &Weights, later: Self) {
+    fn add(&mut self, later: Self) {
         self.tally.total += later.tally.total;
         self.tally.violations += later.tally.violations;
         self.tally.zeros += later.tally.zeros;
         self.tally.undecided += later.tally.undecided;
         self.margin = self.margin.max(later.margin);
+        let order = |w: &Weight| self.predicate.order(w);
         if let Some((edge, w)) = later.worst
-            && self.worst.as_ref().is_none_or(|(_, known)| self.worse(weights, &w, known))
+            && self.worst.as_ref().is_none_or(|(_, known)| order(&w) < order(known))
         {
             self.worst = Some((edge, w));
         }
@@ -298,7 +290,8 @@ impl Survey {
 
     /// Decides the predicate; the classes in `failing` make it fail.
     pub fn decide(&self, trial: &Trial, failing: &[Class]) -> Verdict {
-        let (tally, class, literal) = (self.tally, self.class, trial.has_literal_signs());
+        let (tally, literal) = (self.tally, trial.has_literal_signs());
+        let class = |w: &Weight| self.predicate.class(w).0;
         let level = if literal { Level::Exact } else { Level::Measured };
         // Where both directions say the same, the smaller end is named.
         let first = |(edge, w): &(Edge, Weight)| {
@@ -341,10 +334,10 @@ pub(crate) struct Surveys {
 impl Default for Surveys {
     fn default() -> Self {
         Surveys {
-            strict: Survey::new(Part::Interior, strict, STRICT),
-            weak: Survey::new(Part::Interior, weak, WEAK),
-            boundary: Survey::new(Part::Boundary, strict, STRICT),
-            bridges: Survey::new(Part::Bridges, strict, STRICT),
+            strict: Survey::new(Predicate::Strict),
+            weak: Survey::new(Predicate::Weak),
+            boundary: Survey::new(Predicate::Strict),
+            bridges: Survey::new(Predicate::Strict),
             notes: Vec::new(),
         }
     }
@@ -357,8 +350,17 @@ impl Surveys {
         Surveys { notes: weights.notes(), ..weights.surveys() }
     }
 
-    fn each(&mut self, mut f: impl FnMut(&mut Survey)) {
-        [&mut self.strict, &mut self.weak, &mut self.boundary, &mut self.bridges].into_iter().for_each(&mut f);
+    /// Looks at an edge in each part that it belongs to.
+    fn look(&mut self, weights: &Weights, edge: &Edge) {
+        if edge.number.is_some_and(|e| weights.is_boundary[e]) {
+            return self.boundary.look(edge);
+        }
+        self.strict.look(edge);
+        self.weak.look(edge);
+        let on_boundary = weights.trial.domain.boundary();
+        if edge.number.is_some() && on_boundary[edge.first.i] && on_boundary[edge.first.j] {
+            self.bridges.look(edge);
+        }
     }
 }
 

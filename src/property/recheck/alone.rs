@@ -3,8 +3,10 @@
 
 use dashu_int::IBig;
 
-use super::{Answer, Refusal, drawing, extension, flips, lattice, tetrahedra};
-use crate::property::evidence::{Evidence, Statement};
+use super::{
+    Answer, Refusal, cospectral, drawing, eigenvalues, extension, flips, lattice, tetrahedra, transplantation,
+};
+use crate::property::evidence::{Evidence, Fraction, Statement};
 use crate::scalar::{Rational, Scalar};
 
 /// Coordinates and values are whole numbers up to this: sums and differences of them are exact in `f64`.
@@ -28,6 +30,20 @@ pub(super) fn decide(evidence: &Evidence) -> Option<Answer> {
             Some(drawing::decide(excerpt, &drawn, *missing, fault))
         }
         Statement::TorusFlips { start, flips, end } => Some(lattice::decide(start, *flips, end)),
+        Statement::Cospectral { vertices, first, second, normalised, polynomial } => {
+            Some(cospectral::decide(*vertices, [first, second], *normalised, polynomial))
+        }
+        Statement::Transplantation { first, second, condition, matrix, dual, outlines } => {
+            Some(transplantation::decide([first, second], *condition, [matrix, dual], outlines))
+        }
+        Statement::SpectraDiffer { first, second, condition, mass, sigma, below, determinants } => {
+            let stated = eigenvalues::Stated { sigma, below: *below, determinants };
+            Some(eigenvalues::differ([first, second], (*condition, *mass), &stated))
+        }
+        Statement::DelaunayEigenvalue { other, condition, mass, sigma, below, determinants } => {
+            let stated = eigenvalues::Stated { sigma, below: *below, determinants };
+            Some(eigenvalues::more_on_delaunay(excerpt, other, (*condition, *mass), &stated))
+        }
         _ => None,
     }
 }
@@ -78,6 +94,14 @@ pub(super) fn check_exact(name: &str, stated: &str, found: &Rational) -> Result<
         return Ok(());
     }
     Err(Refusal::untrue(format!("{name} = {stated}"), found))
+}
+
+/// Reads a fraction that is written in lowest terms.
+pub(super) fn lowest_terms(what: &'static str, index: usize, text: &Fraction) -> Result<Rational, Refusal> {
+    match text.value().filter(|value| Fraction::from(value) == *text) {
+        Some(value) => Ok(value),
+        None => Err(Refusal::Malformed { what, index, problem: "is no fraction in lowest terms" }),
+    }
 }
 
 /// A rational number as `p/q` in lowest terms, `p` where q is 1.

@@ -7,7 +7,7 @@ use dashu_int::IBig;
 
 use super::Refusal;
 use super::alone::{fraction, triangles, whole_positions};
-use crate::property::evidence::Excerpt;
+use crate::property::evidence::{Excerpt, Mesh, Weighting};
 use crate::scalar::{Rational, Scalar};
 
 /// A point of the plane.
@@ -38,6 +38,21 @@ impl Planar {
         let read = triangles(&excerpt.faces)?;
         let planar = Planar { points, faces: read.iter().map(|&t| from_smallest(t)).collect() };
         planar.check(read.len())?;
+        Ok(planar)
+    }
+
+    /// Reads a mesh.
+    pub fn of(mesh: &Mesh) -> Result<Self, Refusal> {
+        let points = mesh.points.iter().map(|p| p.map(IBig::from)).collect();
+        let planar = Planar { points, faces: mesh.faces.iter().map(|&t| from_smallest(t)).collect() };
+        planar.check(mesh.faces.len())?;
+        Ok(planar)
+    }
+
+    /// The same points with other triangles.
+    pub fn with(&self, faces: &[[usize; 3]]) -> Result<Self, Refusal> {
+        let planar = Planar { points: self.points.clone(), faces: faces.iter().map(|&t| from_smallest(t)).collect() };
+        planar.check(faces.len())?;
         Ok(planar)
     }
 
@@ -108,6 +123,30 @@ impl Planar {
             }
         }
         l
+    }
+
+    /// The mass matrix.
+    pub fn mass(&self, kind: Weighting) -> Upper {
+        let mut m = Upper::new();
+        if kind == Weighting::Unit {
+            (0..self.points.len()).for_each(|v| add(&mut m, v, v, Rational::ONE));
+        }
+        for &f in &self.faces {
+            // Twice the area over the number of such shares in it.
+            let share = |shares: i64| fraction(self.area(f[0], f[1], f[2]), IBig::from(2 * shares));
+            for (k, &v) in f.iter().enumerate() {
+                let w = f[(k + 1) % 3];
+                match kind {
+                    Weighting::Unit => {}
+                    Weighting::Barycentric => add(&mut m, v, v, share(3)),
+                    Weighting::Consistent => {
+                        add(&mut m, v, v, share(6));
+                        add(&mut m, v.min(w), v.max(w), share(12));
+                    }
+                }
+            }
+        }
+        m
     }
 
     /// The directed edges that have a triangle on their left and none on their right.

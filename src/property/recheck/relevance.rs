@@ -97,6 +97,10 @@ fn describe(statement: &Statement) -> (&'static str, bool, &'static [&'static st
         Statement::PositiveExtension { .. } => ("positive-extension", false, &[]),
         Statement::NotEmbedded { .. } => ("not-embedded", true, &[]),
         Statement::TorusFlips { .. } => ("torus-flips", false, &[]),
+        Statement::Cospectral { .. } => ("cospectral", false, &[]),
+        Statement::Transplantation { .. } => ("transplantation", false, &[]),
+        Statement::SpectraDiffer { .. } => ("spectra-differ", true, &[]),
+        Statement::DelaunayEigenvalue { .. } => ("delaunay-eigenvalue", true, &[]),
     }
 }
 

@@ -9,7 +9,7 @@ use super::super::number::{number, superscript};
 use super::{COLOURS, Chart, Data, FINE, GRID, INK, PlotError, grid, ink, px};
 use crate::figure::{self, Axis, Mark};
 
-const WIDTH: u32 = 760;
+const WIDTH: u32 = 820;
 const HEIGHT: u32 = 360;
 /// The legend's rows that fit beside a chart of that height.
 const ROWS: usize = 14;
@@ -18,8 +18,11 @@ const ROWS: usize = 14;
 #[derive(Clone, Debug)]
 pub(super) struct Plot {
     axes: [Scale; 2],
-    series: Vec<(String, Vec<(f64, f64)>, Mark)>,
+    series: Vec<Line>,
 }
+
+/// A series in drawing coordinates, with its name and its mark.
+type Line = (String, Vec<(f64, f64)>, Mark);
 
 /// An axis in drawing coordinates.
 #[derive(Clone, Debug)]
@@ -100,7 +103,7 @@ impl Plot {
         let [x, y] = &self.axes;
         let mut chart = ChartBuilder::on(area)
             .margin(px(10))
-            .margin_right(px(210))
+            .margin_right(px(266))
             .x_label_area_size(px(56))
             .y_label_area_size(px(84))
             .build_cartesian_2d(x.range[0]..x.range[1], y.range[0]..y.range[1])
@@ -140,7 +143,7 @@ impl Plot {
             if matches!(mark, Mark::Dots | Mark::Both) {
                 chart.draw_series(points.iter().map(|p| dot(*p))).map_err(PlotError::of)?;
             }
-            let (left, height) = (px(WIDTH - 196) as i32, px(24 + 22 * row as u32) as i32);
+            let (left, height) = (px(WIDTH - 252) as i32, px(24 + 22 * row as u32) as i32);
             let ends = [(left, height), (left + px(18) as i32, height)];
             match mark {
                 Mark::Reference => {

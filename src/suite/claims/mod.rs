@@ -69,11 +69,14 @@ pub enum ClaimError {
 /// The claims that come with the program.
 pub static BUILT_IN: &[(&str, &str)] = &[
     ("taxonomy", include_str!("../../../suites/claims/taxonomy.toml")),
+    ("cheeger", include_str!("../../../suites/claims/cheeger.toml")),
+    ("smooth", include_str!("../../../suites/claims/smooth.toml")),
     ("graphs", include_str!("../../../suites/claims/graphs.toml")),
     ("discrete", include_str!("../../../suites/claims/discrete.toml")),
     ("coordinates", include_str!("../../../suites/claims/coordinates.toml")),
     ("no_free_lunch", include_str!("../../../suites/claims/no_free_lunch.toml")),
     ("triangulations", include_str!("../../../suites/claims/triangulations.toml")),
+    ("isospectral", include_str!("../../../suites/claims/isospectral.toml")),
 ];
 
 /// Every claim that comes with the program, in the order of the files.
