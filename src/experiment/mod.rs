@@ -40,6 +40,9 @@ catalogue! {
     tutte_embedding,
     flips_in_the_plane,
     flips_on_tori,
+    convergence,
+    consistency,
+    schwarz_lantern,
 }
 
 use crate::figure::Figure;

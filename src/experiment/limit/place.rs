@@ -128,7 +128,11 @@ impl Place {
                 },
                 gradient: |[x, y, _]| {
                     let r = x * x + y * y;
-                    [1.0 - r / 3.0 - 2.0 / 3.0 * x * x + 2.0 * x * (1.0 - r), -2.0 / 3.0 * x * y + 2.0 * y * (1.0 - r), 0.0]
+                    [
+                        1.0 - r / 3.0 - 2.0 / 3.0 * x * x + 2.0 * x * (1.0 - r),
+                        -2.0 / 3.0 * x * y + 2.0 * y * (1.0 - r),
+                        0.0,
+                    ]
                 },
                 source: |[x, y, _]| 8.0 / 3.0 * x - 4.0 + 8.0 * (x * x + y * y),
             },
@@ -342,12 +346,15 @@ mod tests {
                 for k in 0..5 {
                     let (p, tangents) = somewhere(place, k);
                     let source = minus_laplacian(&|q| (u.value)(q), p, tangents);
-                    assert!((source - (u.source)(p)).abs() < 2e-4, "{place:?} {boundary:?}: {source} {}", (u.source)(p));
+                    assert!(
+                        (source - (u.source)(p)).abs() < 2e-4,
+                        "{place:?} {boundary:?}: {source} {}",
+                        (u.source)(p)
+                    );
                     let off = p.map(|x| 0.9 * x);
                     for q in [p, off] {
                         for d in [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] {
-                            let difference =
-                                ((u.value)(along(q, d, 1e-5)) - (u.value)(along(q, d, -1e-5))) / 2e-5;
+                            let difference = ((u.value)(along(q, d, 1e-5)) - (u.value)(along(q, d, -1e-5))) / 2e-5;
                             let slope: f64 = (0..3).map(|k| (u.gradient)(q)[k] * d[k]).sum();
                             assert!((difference - slope).abs() < 1e-6, "{place:?} {boundary:?}: {difference} {slope}");
                         }
@@ -365,7 +372,12 @@ mod tests {
             let g = disc([c, s, 0.0]);
             assert!((g[0] * c + g[1] * s).abs() < 1e-14);
             let t = t % 1.0;
-            let sides = [square([0.0, t, 0.0])[0], square([1.0, t, 0.0])[0], square([t, 0.0, 0.0])[1], square([t, 1.0, 0.0])[1]];
+            let sides = [
+                square([0.0, t, 0.0])[0],
+                square([1.0, t, 0.0])[0],
+                square([t, 0.0, 0.0])[1],
+                square([t, 1.0, 0.0])[1],
+            ];
             assert!(sides.iter().all(|d| d.abs() < 1e-13), "{sides:?}");
         }
     }

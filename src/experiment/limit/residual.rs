@@ -45,11 +45,8 @@ pub fn residual(
     let closed = inside.len() == operator.size();
     // On a closed mesh one vertex is fixed and the mean is taken out of both sides, as the solution does.
     let unknown: Vec<usize> = if closed { (1..operator.size()).collect() } else { inside.clone() };
-    let mean = if closed {
-        source.iter().zip(mass).map(|(f, m)| f * m).sum::<f64>() / mass.iter().sum::<f64>()
-    } else {
-        0.0
-    };
+    let mean =
+        if closed { source.iter().zip(mass).map(|(f, m)| f * m).sum::<f64>() / mass.iter().sum::<f64>() } else { 0.0 };
     let left = operator.stiffness().mul(&values);
     let right: Vec<f64> = source.iter().zip(mass).map(|(f, m)| (f - mean) * m).collect();
     let factor = Ldlt::new(&energy.submatrix(&unknown, &unknown))?;

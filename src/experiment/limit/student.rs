@@ -42,7 +42,8 @@ mod tests {
     #[test]
     fn the_quantiles_are_those_of_the_handbook() {
         let table = [(1, 12.706), (2, 4.303), (3, 3.182), (4, 2.776), (5, 2.571), (6, 2.447), (7, 2.365), (8, 2.306)];
-        for (freedom, t) in table.into_iter().chain([(10, 2.228), (15, 2.131), (20, 2.086), (30, 2.042), (120, 1.980)]) {
+        for (freedom, t) in table.into_iter().chain([(10, 2.228), (15, 2.131), (20, 2.086), (30, 2.042), (120, 1.980)])
+        {
             let found = quantile(freedom).unwrap();
             assert!((found - t).abs() < 6e-4, "{freedom}: {found}");
         }
