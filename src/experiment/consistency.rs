@@ -86,10 +86,10 @@ fn outcomes(contestants: &[Contestant], sequence: Sequence, plan: Plan) -> Resul
 
 fn run(setting: &Setting) -> Vec<Finding> {
     let (first, last) = match setting.effort {
-        Effort::Smoke => (2, 4),
+        Effort::Smoke => (3, 5),
         Effort::Full => (3, 6),
     };
-    let plan = Plan { first, last, draws: setting.pick(1, 3), seed: setting.seed };
+    let plan = Plan { first, last, draws: 3, seed: setting.seed };
     let [mut control, mut pointwise, mut weak, mut planted] = [(); 4].map(|()| Every::default());
     let (mut table, mut shown) = (Vec::new(), Vec::new());
     for &sequence in ALL {
@@ -108,14 +108,14 @@ fn run(setting: &Setting) -> Vec<Finding> {
             let (strong, dual) = (judge(&outcome.pointwise), judge(&outcome.weak));
             let case = || told(&outcome, solution, strong, dual);
             if solution.converges() {
-                pointwise.ask((!strong.converges()).then(case));
-                weak.ask((!dual.converges()).then(case));
+                ask(&mut pointwise, strong, strong.levels_off(), case);
+                ask(&mut weak, dual, dual.levels_off(), case);
                 table.push(format!("{}: at the vertices {strong}, weakly {dual}", outcome.row.name()));
                 if sequence == SQUARE {
-                    control.ask((!strong.reaches(2.0)).then(case));
+                    ask(&mut control, strong, !strong.reaches(2.0), case);
                 }
-            } else {
-                planted.ask((!dual.levels_off()).then(case));
+            } else if solution.levels_off() {
+                ask(&mut planted, dual, dual.converges(), case);
             }
             shown.extend(figure(&outcome));
         }
@@ -127,7 +127,7 @@ fn run(setting: &Setting) -> Vec<Finding> {
         weak.answer(ENTRY.parts[2], "Does the residual in the dual of the energy tend to zero wherever the solution converges?", cases),
         planted.answer(
             ENTRY.parts[3],
-            "Does the residual in the dual of the energy level off where the solution does not converge, up to the best factor?",
+            "Does the residual in the dual of the energy not tend to zero where the solution does not converge, up to the best factor?",
             "operators without lengths on a structured square",
         ),
     ];
@@ -135,6 +135,14 @@ fn run(setting: &Setting) -> Vec<Finding> {
     findings[1].figures = shown;
     findings.iter_mut().for_each(|f| f.level = Level::Measured);
     findings
+}
+
+/// A trend that is too noisy to say leaves the case open.
+fn ask(every: &mut Every, trend: Trend, against: bool, case: impl Fn() -> Case) {
+    match trend.is_open() {
+        true => every.leave_open(case().text),
+        false => every.ask(against.then(case)),
+    }
 }
 
 fn told(outcome: &Outcome, solution: Trend, strong: Trend, dual: Trend) -> Case {
@@ -184,7 +192,7 @@ mod tests {
     use super::super::limit::place::Boundary;
     use super::*;
 
-    const PLAN: Plan = Plan { first: 2, last: 4, draws: 1, seed: 1 };
+    const PLAN: Plan = Plan { first: 3, last: 5, draws: 1, seed: 1 };
 
     #[test]
     fn a_wrong_sign_and_a_wrong_mass_leave_a_residual_of_their_size() {

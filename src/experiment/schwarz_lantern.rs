@@ -19,7 +19,7 @@ use rayon::prelude::*;
 use super::limit::order::{DIVIDE, Level as Size, Trend, judge};
 use super::limit::sequence::make;
 use super::poll::{Case, Every};
-use super::{Experiment, Finding, Setting};
+use super::{Effort, Experiment, Finding, Setting};
 use crate::figure::{Axis, Chart, Figure, Mark, Series};
 use crate::laplacian;
 use crate::linalg::spectrum::lowest;
@@ -55,7 +55,7 @@ const COUNT: usize = 8;
 enum Family {
     /// `m = n`: m/n² → 0.
     Flat,
-    /// `m = n²/parts`, parts dividing n².
+    /// `m = n²/parts`, parts dividing n² for even n.
     Square { parts: usize },
 }
 
@@ -165,8 +165,10 @@ impl Study {
 }
 
 fn studies(setting: &Setting) -> Result<Vec<Study>, String> {
-    let square: &[usize] = if setting.pick(0, 1) == 0 { &[4, 6, 8] } else { &[6, 8, 12, 16] };
-    let flat: &[usize] = if setting.pick(0, 1) == 0 { &[8, 12, 16] } else { &[12, 18, 27, 40] };
+    let (square, flat) = match setting.effort {
+        Effort::Smoke => ([6, 8, 10, 12].as_slice(), [10, 14, 20, 28].as_slice()),
+        Effort::Full => ([6, 8, 12, 16, 20].as_slice(), [12, 18, 27, 40, 60].as_slice()),
+    };
     let families =
         [Family::Flat, Family::Square { parts: 4 }, Family::Square { parts: 2 }, Family::Square { parts: 1 }];
     let jobs: Vec<(Family, usize)> = families
@@ -247,7 +249,7 @@ fn run(setting: &Setting) -> Vec<Finding> {
 
 /// Area and the first eigenvalue of mode k = 1 relative to the cylinder's, against n, with their limits.
 fn first_eigenvalue(studies: &[Study]) -> Figure {
-    let ends = |y: f64| [4.0, 40.0].map(|n| [n, y]);
+    let ends = |y: f64| [6.0, 60.0].map(|n| [n, y]);
     let mut series = Vec::new();
     for study in studies {
         let points = study.lanterns.iter().map(|(n, l)| [*n as f64, l.eigenvalues.iter().sum()]);
@@ -334,7 +336,7 @@ mod tests {
 
     #[test]
     fn a_wrong_limit_is_noticed() {
-        let studies = studies(&Setting { seed: 1, effort: super::super::Effort::Smoke }).unwrap();
+        let studies = studies(&Setting { seed: 1, effort: Effort::Smoke }).unwrap();
         for study in &studies[1..] {
             // The limit of another ratio, and the formula without its term of fourth order.
             let q = study.family.q();

@@ -11,7 +11,8 @@
 //! # The verdict
 //! An error that stays has the order 0, and no convergence theorem about piecewise linear functions promises less than 1: the dividing line
 //! is ½. *Converges*: the whole interval lies above ½, and the mean error falls at every size. *Levels off*: the whole interval lies
-//! below ½, and so does the slope over the last two sizes. Else *undecided*. Each can come out for each sequence of numbers.
+//! below ½, and so does the slope over the last two sizes. *Exact*: every error is zero, that is, one that rounding explains, as those who
+//! measure say. Else *undecided*. Each can come out for each sequence of numbers.
 
 use super::student;
 
@@ -54,6 +55,8 @@ impl std::fmt::Display for Order {
 pub enum Trend {
     /// It falls with this order.
     Converges(Order),
+    /// There is none.
+    Exact,
     /// It stays.
     LevelsOff(Order),
     /// Neither can be said.
@@ -64,6 +67,7 @@ impl std::fmt::Display for Trend {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Trend::Converges(order) => write!(f, "converges with order {order}"),
+            Trend::Exact => write!(f, "is exact up to rounding"),
             Trend::LevelsOff(order) => write!(f, "levels off, order {order}"),
             Trend::Undecided(Some(order)) => write!(f, "undecided, order {order}"),
             Trend::Undecided(None) => write!(f, "undecided: no order"),
@@ -77,17 +81,26 @@ impl Trend {
         match self {
             Trend::Converges(order) | Trend::LevelsOff(order) => Some(*order),
             Trend::Undecided(order) => *order,
+            Trend::Exact => None,
         }
     }
 
-    /// Whether it converges.
+    /// Whether it converges, at whatever order, or is exact.
     pub fn converges(&self) -> bool {
-        matches!(self, Trend::Converges(_))
+        matches!(self, Trend::Converges(_) | Trend::Exact)
     }
 
-    /// Whether it converges with an interval that reaches `p`.
+    /// Whether it converges with an interval that reaches `p`, or is exact.
     pub fn reaches(&self, p: f64) -> bool {
-        matches!(self, Trend::Converges(order) if order.p + order.half_width >= p)
+        match self {
+            Trend::Converges(order) => order.p + order.half_width >= p,
+            other => *other == Trend::Exact,
+        }
+    }
+
+    /// Whether it decides nothing.
+    pub fn is_open(&self) -> bool {
+        matches!(self, Trend::Undecided(_))
     }
 
     /// Whether it levels off.
@@ -99,6 +112,10 @@ impl Trend {
 /// The verdict on errors at sizes from coarse to fine. Fewer than three sizes, or an error that is not a positive number,
 /// decide nothing.
 pub fn judge(levels: &[Level]) -> Trend {
+    let mut errors = levels.iter().flat_map(|l| &l.errors);
+    if levels.len() >= 3 && errors.all(|e| *e == 0.0) {
+        return Trend::Exact;
+    }
     let Some(order) = order(levels) else { return Trend::Undecided(None) };
     let means: Vec<f64> = levels.iter().map(Level::mean).collect();
     let falls = means.windows(2).all(|w| w[1] < w[0]);
@@ -198,7 +215,8 @@ mod tests {
         assert_eq!(judge(&levels(|h| h)[..2]), Trend::Undecided(None));
         assert_eq!(judge(&[]), Trend::Undecided(None));
         assert_eq!(judge(&levels(|_| f64::NAN)), Trend::Undecided(None));
-        assert_eq!(judge(&levels(|_| 0.0)), Trend::Undecided(None));
+        assert_eq!(judge(&levels(|h| if h > 0.05 { 0.0 } else { 1e-3 })), Trend::Undecided(None));
+        assert_eq!(judge(&levels(|_| 0.0)), Trend::Exact);
     }
 
     /// Noise of a twentieth in each error, three meshes a size: the interval misses the true order no more often than one in

@@ -13,7 +13,8 @@ pub enum Way {
     Structured,
     /// Evenly spaced boundary vertices, random interior ones, Delaunay.
     RandomDelaunay,
-    /// The structured mesh after random flips, one for every eight edges: no longer Delaunay.
+    /// The structured square after random flips, one for every sixteen edges: no longer Delaunay. On a lattice no triangle is
+    /// smaller than another; elsewhere flips make triangles as thin as rounding allows, and what they carry does not converge.
     Flipped,
 }
 
@@ -36,14 +37,13 @@ pub struct Mesh {
     pub h: f64,
 }
 
-/// Every sequence. Flips on a surface in space change its shape, so that these are planar.
+/// Every sequence. Flips on a surface in space change its shape.
 pub const ALL: &[Sequence] = &[
     Sequence { place: Place::Square, way: Way::Structured },
     Sequence { place: Place::Square, way: Way::RandomDelaunay },
     Sequence { place: Place::Square, way: Way::Flipped },
     Sequence { place: Place::Disc, way: Way::Structured },
     Sequence { place: Place::Disc, way: Way::RandomDelaunay },
-    Sequence { place: Place::Disc, way: Way::Flipped },
     Sequence { place: Place::Torus, way: Way::Structured },
     Sequence { place: Place::Sphere, way: Way::Structured },
 ];
@@ -55,9 +55,8 @@ impl Sequence {
             (Place::Square, Way::Structured) => "square, structured",
             (Place::Square, Way::RandomDelaunay) => "square, random Delaunay",
             (Place::Square, Way::Flipped) => "square, flipped",
-            (Place::Disc, Way::Structured) => "disc, rings",
             (Place::Disc, Way::RandomDelaunay) => "disc, random Delaunay",
-            (Place::Disc, Way::Flipped) => "disc, flipped rings",
+            (Place::Disc, _) => "disc, rings",
             (Place::Torus, _) => "flat torus, structured",
             (Place::Sphere, _) => "sphere, icosahedral",
         }
@@ -94,7 +93,7 @@ impl Sequence {
             (Place::Sphere, _) => source("icosphere", &[("levels", whole(level.saturating_sub(2)))], seed)?,
         };
         if self.way == Way::Flipped {
-            let count = domain.edges().len() / 8;
+            let count = domain.edges().len() / 16;
             domain = change(&domain, "flip", &[("count", whole(count))], seed)?;
         }
         let surface = domain.as_surface().ok_or("not a surface")?;
