@@ -10,7 +10,7 @@ use super::limit::place::Place;
 use super::limit::residual::residual;
 use super::limit::sequence::{ALL, Mesh, Sequence, Way};
 use super::poll::{Case, Every};
-use super::{Effort, Experiment, Finding, Setting};
+use super::{Experiment, Finding, Setting};
 use crate::figure::{Axis, Chart, Figure, Mark, Series};
 use crate::property::Level;
 
@@ -55,10 +55,7 @@ struct Outcome {
 fn outcomes(contestants: &[Contestant], sequence: Sequence, plan: Plan) -> Result<Vec<Outcome>, String> {
     let boundary = sequence.place.boundaries()[0];
     let draws = sequence.draws(plan.draws);
-    let places: Vec<(usize, usize)> =
-        (plan.first..=plan.last).flat_map(|level| (0..draws).map(move |draw| (level, draw))).collect();
-    let make = |&(level, draw): &(usize, usize)| sequence.mesh(level, plan.seed + draw as u64);
-    let meshes: Vec<Mesh> = places.par_iter().map(make).collect::<Result<_, String>>()?;
+    let meshes = plan.meshes(sequence)?;
     let solved = rows(contestants, sequence, &[boundary], plan)?;
     let outcome = |row: Row| {
         let contestant = row.contestant;
@@ -85,11 +82,7 @@ fn outcomes(contestants: &[Contestant], sequence: Sequence, plan: Plan) -> Resul
 }
 
 fn run(setting: &Setting) -> Vec<Finding> {
-    let (first, last) = match setting.effort {
-        Effort::Smoke => (3, 5),
-        Effort::Full => (3, 6),
-    };
-    let plan = Plan { first, last, draws: 3, seed: setting.seed };
+    let plan = Plan { first: 3, last: 6, last_random: setting.pick(5, 6), draws: 3, seed: setting.seed };
     let [mut control, mut pointwise, mut weak, mut planted] = [(); 4].map(|()| Every::default());
     let (mut table, mut shown) = (Vec::new(), Vec::new());
     for &sequence in ALL {
@@ -192,7 +185,7 @@ mod tests {
     use super::super::limit::place::Boundary;
     use super::*;
 
-    const PLAN: Plan = Plan { first: 3, last: 5, draws: 1, seed: 1 };
+    const PLAN: Plan = Plan { first: 3, last: 6, last_random: 5, draws: 1, seed: 1 };
 
     #[test]
     fn a_wrong_sign_and_a_wrong_mass_leave_a_residual_of_their_size() {

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::order::{Level, Trend, judge};
 use super::place::Boundary;
 use super::poisson::{self, Fit};
-use super::sequence::{Mesh, Sequence};
+use super::sequence::{Mesh, Sequence, Way};
 use super::spectra::gaps;
 use crate::laplacian;
 use crate::linalg::Csr;
@@ -96,12 +96,28 @@ impl Row {
 pub struct Plan {
     /// The coarsest level.
     pub first: usize,
-    /// The finest level.
+    /// The finest level of a structured sequence.
     pub last: usize,
+    /// The finest level of a random one.
+    pub last_random: usize,
     /// Draws of a random mesh at each level.
     pub draws: usize,
     /// The seed of the first.
     pub seed: u64,
+}
+
+impl Plan {
+    /// The meshes of a sequence, level by level.
+    ///
+    /// # Errors
+    /// What a generator refuses, in words.
+    pub fn meshes(&self, sequence: Sequence) -> Result<Vec<Mesh>, String> {
+        let draws = sequence.draws(self.draws);
+        let last = if sequence.way == Way::Structured { self.last } else { self.last_random };
+        let places: Vec<(usize, usize)> =
+            (self.first..=last).flat_map(|level| (0..draws).map(move |draw| (level, draw))).collect();
+        places.par_iter().map(|&(level, draw)| sequence.mesh(level, self.seed + draw as u64)).collect()
+    }
 }
 
 /// Every operator of a list on one sequence with each boundary condition, level by level; the meshes are made once.
@@ -115,10 +131,7 @@ pub fn rows(
     plan: Plan,
 ) -> Result<Vec<Row>, String> {
     let draws = sequence.draws(plan.draws);
-    let places: Vec<(usize, usize)> =
-        (plan.first..=plan.last).flat_map(|level| (0..draws).map(move |draw| (level, draw))).collect();
-    let make = |&(level, draw): &(usize, usize)| sequence.mesh(level, plan.seed + draw as u64);
-    let meshes: Vec<Mesh> = places.par_iter().map(make).collect::<Result<_, String>>()?;
+    let meshes = plan.meshes(sequence)?;
     let cells: Vec<(Contestant, Boundary)> =
         boundaries.iter().flat_map(|b| contestants.iter().map(move |c| (*c, *b))).collect();
     let jobs: Vec<(usize, usize)> = (0..cells.len()).flat_map(|c| (0..meshes.len()).map(move |m| (c, m))).collect();
