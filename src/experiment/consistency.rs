@@ -156,7 +156,7 @@ fn figure(outcome: &Outcome) -> Option<Figure> {
     let solution = outcome.row.levels[Quantity::PoissonEnergy as usize].as_deref()?;
     let of = |name: &str, levels: &[Size]| {
         let name = match judge(levels).order() {
-            Some(order) => format!("{name}: order {order}"),
+            Some(order) => format!("{name}: {order}"),
             None => name.to_string(),
         };
         Series::new(name, Mark::Both, levels.iter().map(|l| [l.h, l.mean()]))
@@ -171,8 +171,8 @@ fn figure(outcome: &Outcome) -> Option<Figure> {
         x: Axis::logarithmic("mesh size h"),
         y: Axis::logarithmic("relative error"),
         series: vec![
-            of("largest residual at a vertex", &outcome.pointwise),
-            of("residual in the dual of the energy", &outcome.weak),
+            of("residual, worst vertex", &outcome.pointwise),
+            of("residual, dual of the energy", &outcome.weak),
             of("solution in energy", solution),
             reference(1.0),
             reference(2.0),

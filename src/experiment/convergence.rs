@@ -244,14 +244,18 @@ fn stays(planted: &[Row], id: &str, part: &'static str) -> Finding {
     );
     let mut finding = search.answer(part, question, "quantities");
     finding.level = Level::Measured;
-    let series = planted.iter().flat_map(|row| series(row, Quantity::PoissonEnergy, row.contestant.name));
+    let series = planted.iter().flat_map(|row| series(row, Quantity::PoissonEnergy, row.contestant.id));
     let title = "Errors that stay: solutions of Poisson's equation up to the best factor, structured square";
     finding.figures.push(figure(title, Quantity::PoissonEnergy, series.collect(), planted));
     finding
 }
 
 fn chart(all: &[Row], quantity: Quantity) -> Option<Figure> {
-    let shown = |r: &&Row| r.contestant == CLAIMING[0] && r.boundary == r.sequence.place.boundaries()[0];
+    // As many as there are colours.
+    let left_out = Sequence { place: Place::Disc, way: Way::RandomDelaunay };
+    let shown = |r: &&Row| {
+        r.contestant == CLAIMING[0] && r.boundary == r.sequence.place.boundaries()[0] && r.sequence != left_out
+    };
     let rows: Vec<&Row> = all.iter().filter(shown).collect();
     let series = rows.iter().flat_map(|row| series(row, quantity, row.sequence.name())).collect();
     let title =
@@ -259,17 +263,19 @@ fn chart(all: &[Row], quantity: Quantity) -> Option<Figure> {
     Some(figure(&title, quantity, series, all))
 }
 
-/// The mean errors, named with their order, and the fitted line.
-fn series(row: &Row, quantity: Quantity, name: &str) -> Vec<Series> {
-    let Some(levels) = &row.levels[quantity as usize] else { return Vec::new() };
-    let order = row.trend(quantity).and_then(|t| t.order());
+/// The errors, named with their order, and the fitted line.
+fn series(row: &Row, quantity: Quantity, name: &str) -> Option<[Series; 2]> {
+    let levels = row.levels[quantity as usize].as_ref()?;
+    let order = row.trend(quantity)?.order()?;
     let points = |l: &Size| l.errors.iter().map(|e| [l.h, *e]).collect::<Vec<_>>();
-    let dots = Series::new(name, Mark::Dots, levels.iter().flat_map(points));
-    let fit = order.map(|o| Series::new(format!("fit {o}"), Mark::Line, fitted(levels, o.p)));
-    std::iter::once(dots).chain(fit).collect()
+    let dots = Series::new(format!("{name}: {order}"), Mark::Dots, levels.iter().flat_map(points));
+    Some([dots, Series::new(format!("fit, {name}"), Mark::Reference, fitted(levels, order.p))])
 }
 
-fn figure(title: &str, quantity: Quantity, mut series: Vec<Series>, rows: &[Row]) -> Figure {
+/// A chart of errors: the dots first, so that each sequence has a colour of its own, then the fitted lines and the promised slope.
+fn figure(title: &str, quantity: Quantity, pairs: Vec<[Series; 2]>, rows: &[Row]) -> Figure {
+    let (mut series, fits): (Vec<Series>, Vec<Series>) = pairs.into_iter().map(|[dots, fit]| (dots, fit)).unzip();
+    series.extend(fits);
     let sizes: Vec<f64> = rows.iter().flat_map(|r| r.levels[quantity as usize].iter().flatten()).map(|l| l.h).collect();
     let (least, most) = sizes.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), h| (a.min(*h), b.max(*h)));
     let p = quantity.promised();

@@ -216,7 +216,7 @@ fn run(setting: &Setting) -> Vec<Finding> {
                 area_misses.ask((!round_area.levels_off()).then(|| study.told("the area", round_area)));
                 values_miss.ask((!round_values.levels_off()).then(|| study.told("the eigenvalues", round_values)));
             }
-            figures = [first_eigenvalue(&studies), errors(&studies)].into();
+            figures = [sums(&studies), errors(&studies)].into();
         }
     }
     let cases = "families with m/n² constant";
@@ -247,8 +247,8 @@ fn run(setting: &Setting) -> Vec<Finding> {
     findings
 }
 
-/// Area and the first eigenvalue of mode k = 1 relative to the cylinder's, against n, with their limits.
-fn first_eigenvalue(studies: &[Study]) -> Figure {
+/// The sum of the eigenvalues against n, with the limits.
+fn sums(studies: &[Study]) -> Figure {
     let ends = |y: f64| [6.0, 60.0].map(|n| [n, y]);
     let mut series = Vec::new();
     for study in studies {
@@ -283,7 +283,7 @@ fn errors(studies: &[Study]) -> Figure {
             let error =
                 |l: &Lantern| l.eigenvalues.iter().zip(&exact).map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f64::max);
             let points = study.lanterns.iter().map(|(n, l)| [1.0 / *n as f64, error(l)]);
-            let order = study.eigenvalues(q).order().map_or(String::new(), |o| format!(", order {o}"));
+            let order = study.eigenvalues(q).order().map_or(String::new(), |o| format!(": {o}"));
             series.push(Series::new(format!("{} against {against}{order}", study.family.name()), Mark::Both, points));
         }
     }
