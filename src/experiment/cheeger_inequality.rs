@@ -85,7 +85,7 @@ fn below_the_printed_bound(s: &Specimen, cut: &Cut) -> Option<Case> {
     let Some(x) = s.slow_vector(&t) else { return Some(Case::told(text)) };
     let statement = Statement::BelowCheeger { x, side: cut.side.clone() };
     let all: Vec<usize> = (0..s.degrees.len()).collect();
-    Some(Case::shown(text, on_graph(statement, &s.graph, &s.stiffness, &all)))
+    Some(Case::shown(text, on_graph(statement, &s.graph, s.pencil.stiffness(), &all)))
 }
 
 impl Polls {
@@ -124,7 +124,7 @@ impl Polls {
     fn ask_scaling(&mut self, s: &Specimen) {
         let n = s.degrees.len();
         let factor = Rational::from(7) / Rational::from(3);
-        let scaled = Dense::from_fn(n, n, |i, j| s.stiffness.at(i, j).clone() * factor.clone());
+        let scaled = Dense::from_fn(n, n, |i, j| s.pencil.stiffness().at(i, j).clone() * factor.clone());
         let degrees: Vec<Rational> = s.degrees.iter().map(|d| d.clone() * factor.clone()).collect();
         let (printed, chung) = constants(&scaled, &degrees);
         let ratio = |cut: &Option<Cut>| cut.as_ref().map(|c| c.ratio.clone());
@@ -134,7 +134,7 @@ impl Polls {
         let sum = Dense::from_fn(n, n, |i, j| {
             // Edge by edge, the weight times the Laplacian of that edge alone.
             edges.iter().fold(Rational::zero(), |sum, &[a, b]| {
-                let w = s.stiffness.at(a, b).clone();
+                let w = s.pencil.stiffness().at(a, b).clone();
                 match ((i == a) as i8 - (i == b) as i8) * ((j == a) as i8 - (j == b) as i8) {
                     1 => sum - w,
                     -1 => sum + w,
@@ -142,7 +142,7 @@ impl Polls {
                 }
             })
         });
-        self.linear.ask(s, (sum != s.stiffness).then(|| told(s, "L is not the sum over its edges")), None);
+        self.linear.ask(s, (sum != *s.pencil.stiffness()).then(|| told(s, "L is not the sum over its edges")), None);
     }
 }
 

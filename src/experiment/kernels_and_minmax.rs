@@ -8,7 +8,7 @@
 
 use std::cmp::Ordering;
 
-use super::calculus::{Polynomial, characteristic, diagonalises, ratio, roots_in, whole};
+use super::calculus::{Polynomial, ratio, whole};
 use super::poll::{Case, Every, Search};
 use super::world::excerpt::{on_graph, sparse};
 use super::world::graphs::{component_count, describe, graphs_up_to, laplacian, randomly_weighted};
@@ -18,6 +18,7 @@ use crate::domain::Graph;
 use crate::generate::Stream;
 use crate::laplacian::cotan::stiffness_in_plane;
 use crate::linalg::Dense;
+use crate::linalg::polynomial::{self, Sturm};
 use crate::property::Statement;
 use crate::scalar::{Rational, Scalar};
 
@@ -198,18 +199,27 @@ fn more_than_constants(graph: &Graph, l: &Dense<Rational>) -> Option<Case> {
 
 /// Distinct roots in [0, bound], and in all, by Sturm's theorem; the bound is that of Gershgorin.
 fn not_nonnegative(a: &Dense<Rational>, name: &str) -> Option<Case> {
-    let p = characteristic(a);
-    let (_, distinct) = diagonalises(a);
+    let p = polynomial::Polynomial::characteristic(a);
+    let distinct = p.without_multiplicities().degree().unwrap_or(0);
     let sums = (0..a.rows()).map(|i| crate::scalar::sum((0..a.rows()).map(|j| a.at(i, j).magnitude())));
     let bound = sums.fold(whole(1), |m, s| if s > m { s } else { m });
     // Sturm's interval is open below, so that 0 is counted by itself.
-    let zero = usize::from(p[0].cmp_zero() == Ordering::Equal);
-    let found = zero + roots_in(&p, &Rational::ZERO, &bound);
+    let zero = usize::from(p.at(&Rational::ZERO).cmp_zero() == Ordering::Equal);
+    let chain = Sturm::new(&p);
+    let found = zero + chain.up_to(&bound) - chain.up_to(&Rational::ZERO);
     told(found != distinct, || format!("{found} real roots ≥ 0 of {distinct} on {name}"))
 }
 
 fn no_basis(a: &Dense<Rational>, name: &str) -> Option<Case> {
-    told(!diagonalises(a).0, || name.to_string())
+    told(!has_basis(a), || name.to_string())
+}
+
+/// Whether A has a basis of eigenvectors over the complex numbers: the part s of its characteristic polynomial that has each root once
+/// has `s(A) = 0`.
+fn has_basis(a: &Dense<Rational>) -> bool {
+    let value = polynomial::Polynomial::characteristic(a).without_multiplicities().at_matrix(a);
+    let n = a.rows();
+    (0..n * n).all(|k| value.at(k / n, k % n).cmp_zero() == Ordering::Equal)
 }
 
 /// With `Q` a basis of the vectors orthogonal to M1: the form `L − tM` is negative somewhere on it exactly if the pencil has
@@ -299,6 +309,13 @@ mod tests {
         assert!(not_nonnegative(&matrix([[1, 2], [2, 1]]), "").is_some(), "the eigenvalue −1");
         assert!(not_nonnegative(&matrix([[1, -1], [1, 1]]), "").is_some(), "the eigenvalues 1 ± i");
         assert!(no_basis(&matrix([[1, 1], [0, 1]]), "").is_some() && no_basis(&matrix([[1, 1], [1, 1]]), "").is_none());
+    }
+
+    #[test]
+    fn a_jordan_block_has_no_basis_and_a_rotation_has_a_complex_one() {
+        assert!(!has_basis(&matrix([[2, 1], [0, 2]])));
+        assert!([[[0, -1], [1, 0]], [[1, 0], [0, 1]]].into_iter().all(|rows| has_basis(&matrix(rows))));
+        assert!(has_basis(&matrix([[1, -1, 0], [-1, 2, -1], [0, -1, 1]])));
     }
 
     #[test]

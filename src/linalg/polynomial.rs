@@ -82,6 +82,17 @@ impl<S: Scalar> Polynomial<S> {
         self.coefficients.iter().rev().fold(S::zero(), |value, c| (value * x.clone() + c.clone()).reduced())
     }
 
+    /// The value at a square matrix.
+    pub fn at_matrix(&self, a: &Dense<S>) -> Dense<S> {
+        let n = a.rows();
+        let zero = Dense::from_fn(n, n, |_, _| S::zero());
+        self.coefficients.iter().rev().fold(zero, |value, c| {
+            let mut next = a.product(&value);
+            (0..n).for_each(|i| next.add_to(i, i, c.clone()));
+            next
+        })
+    }
+
     /// The product with another one.
     pub fn times(&self, other: &Self) -> Self {
         let (m, n) = (self.coefficients.len(), other.coefficients.len());
@@ -282,6 +293,24 @@ mod tests {
             }
             assert_eq!(cycle.real_roots(&rational(0.0)).at, 1);
         }
+    }
+
+    #[test]
+    fn sturm_counts_the_roots_of_the_path_of_three_and_none_of_a_rotation() {
+        let path = Polynomial::characteristic(&laplacian(3, |i, j| i.abs_diff(j) == 1));
+        // x (x − 1) (x − 3) = x³ − 4x² + 3x.
+        assert_eq!(path.coefficients(), [0.0, 3.0, -4.0, 1.0].map(rational));
+        let between = |p: &Polynomial<Rational>, low: f64, high: f64| {
+            let chain = Sturm::new(p);
+            chain.up_to(&rational(high)) - chain.up_to(&rational(low))
+        };
+        let found = [(-1.0, 0.0), (0.0, 1.0), (1.0, 2.0), (1.0, 3.0), (-9.0, 9.0)].map(|(a, b)| between(&path, a, b));
+        assert_eq!(found, [1, 1, 0, 1, 3]);
+        let turn = Dense::from_fn(2, 2, |i, j| rational([[0.0, -1.0], [1.0, 0.0]][i][j]));
+        let circle = Polynomial::characteristic(&turn);
+        assert_eq!((between(&circle, -5.0, 5.0), circle.without_multiplicities().degree()), (0, Some(2)));
+        // Cayley and Hamilton.
+        assert!((0..4).all(|k| circle.at_matrix(&turn).at(k / 2, k % 2).cmp_zero() == Ordering::Equal));
     }
 
     /// A symmetric matrix of whole numbers from −3 to 3.

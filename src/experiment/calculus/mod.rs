@@ -5,11 +5,9 @@
 mod form;
 mod integral;
 mod polynomial;
-mod univariate;
 
 pub use form::{Form, random_simplex};
 pub use polynomial::{Polynomial, divergence};
-pub use univariate::{characteristic, diagonalises, roots_in};
 
 use crate::generate::Stream;
 use crate::scalar::Rational;

@@ -7,14 +7,15 @@ use std::cmp::Ordering;
 use super::graphs::laplacian;
 use crate::domain::Graph;
 use crate::linalg::Dense;
+use crate::linalg::pencil::Pencil;
 use crate::scalar::{Rational, Scalar};
 
 /// A connected graph with its exact matrices and both constants.
 pub struct Specimen {
     /// The graph.
     pub graph: Graph,
-    /// Its Laplacian.
-    pub stiffness: Dense<Rational>,
+    /// Its Laplacian, with the degrees as mass.
+    pub pencil: Pencil,
     /// Its degrees: the sums of the weights at a vertex.
     pub degrees: Vec<Rational>,
     /// The primer's constant; `None` where every partition has a side without an edge inside.
@@ -38,17 +39,15 @@ impl Specimen {
         let stiffness = laplacian(&graph);
         let degrees: Vec<Rational> = (0..stiffness.rows()).map(|i| stiffness.at(i, i).clone()).collect();
         let (printed, chung) = constants(&stiffness, &degrees);
-        Some(Specimen { graph, stiffness, degrees, printed, chung: chung? })
+        let zero = Rational::ZERO;
+        let mass =
+            Dense::from_fn(degrees.len(), degrees.len(), |i, j| if i == j { degrees[i].clone() } else { zero.clone() });
+        Some(Specimen { graph, pencil: Pencil::new(stiffness, mass)?, degrees, printed, chung: chung? })
     }
 
     /// Eigenvalues of the pencil (L, D) below t, and equal to t.
     pub fn eigenvalues_below(&self, t: &Rational) -> (usize, usize) {
-        let n = self.degrees.len();
-        let shifted = Dense::from_fn(n, n, |i, j| {
-            let entry = self.stiffness.at(i, j).clone();
-            if i == j { (entry - t.clone() * self.degrees[i].clone()).reduced() } else { entry }
-        });
-        let inertia = shifted.eliminate().inertia();
+        let inertia = self.pencil.inertia(t);
         (inertia.negative, inertia.zero)
     }
 
@@ -71,7 +70,7 @@ impl Specimen {
         let form = Dense::from_fn(n, n, |i, j| {
             let d = |k: usize| self.degrees[k].clone();
             let diagonal = if i == j { t.clone() * d(i) } else { Rational::zero() };
-            (self.stiffness.at(i, j).clone() - diagonal + t.clone() * d(i) * d(j) / total.clone()).reduced()
+            (self.pencil.stiffness().at(i, j).clone() - diagonal + t.clone() * d(i) * d(j) / total.clone()).reduced()
         });
         let x = form.eliminate().negative_direction()?;
         let rounded: Vec<f64> = x.iter().map(Scalar::approximate).collect();
@@ -166,7 +165,13 @@ mod tests {
                 let s = Specimen::of(graph).unwrap();
                 let d: Vec<f64> = s.degrees.iter().map(|d| d.approximate()).collect();
                 let entries: Vec<_> = (0..n * n)
-                    .map(|k| (k / n, k % n, s.stiffness.at(k / n, k % n).approximate() / (d[k / n] * d[k % n]).sqrt()))
+                    .map(|k| {
+                        (
+                            k / n,
+                            k % n,
+                            s.pencil.stiffness().at(k / n, k % n).approximate() / (d[k / n] * d[k % n]).sqrt(),
+                        )
+                    })
                     .collect();
                 let lambda = symmetric_eigen(&Csr::from_triplets(n, n, &entries)).unwrap().0[1];
                 for k in 1..40 {
@@ -185,7 +190,7 @@ mod tests {
     fn every_partition_is_seen_by_the_gray_code() {
         // Against the subsets themselves.
         let s = specimen(5, &[[0, 1], [1, 2], [2, 3], [3, 4], [4, 0], [0, 2]]);
-        let weight = |a: usize, b: usize| 0.0 - s.stiffness.at(a, b).approximate();
+        let weight = |a: usize, b: usize| 0.0 - s.pencil.stiffness().at(a, b).approximate();
         let mut best = f64::INFINITY;
         for mask in 1..31_usize {
             let inside = |v: usize| mask >> v & 1 == 1;
