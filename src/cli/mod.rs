@@ -6,6 +6,7 @@ mod explain;
 mod export;
 mod faults;
 mod generate;
+mod jury;
 mod list;
 mod progress;
 mod recheck;

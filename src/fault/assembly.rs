@@ -3,22 +3,9 @@
 use std::collections::BTreeMap;
 
 use super::site::{Site, Triangle, pick, stiffness};
-use super::{Blind, Class, Fault};
+use super::{Blind, Class, Fault, Spoilt};
 use crate::linalg::Csr;
-use crate::operator::Operator;
 use crate::stream::Stream;
-
-type Spoilt = Result<Operator, &'static str>;
-
-const fn fault(
-    id: &'static str,
-    what: &'static str,
-    caught_by: &'static [&'static str],
-    blind: &'static [Blind],
-    change: fn(&Site, &mut Stream) -> Spoilt,
-) -> Fault {
-    Fault { id, what, class: Class::Assembly, masses: &[], caught_by, blind, change }
-}
 
 /// What sees a wrong sum over triangles.
 const SUM: &[&str] = &["ENERGY", "LIN", "FLUX"];
@@ -70,18 +57,24 @@ fn flippable(
 
 /// The faults.
 pub(super) static FAULTS: &[Fault] = &[
-    fault("triangle-dropped", "a triangle left out of the sum", SUM, &[Blind::AnglesBelow(1.0)], |s, r| {
-        counted(s, r, 0.0)
+    Class::Assembly.fault(
+        "triangle-dropped",
+        "a triangle left out of the sum",
+        SUM,
+        &[Blind::AnglesBelow(1.0)],
+        |s, r| counted(s, r, 0.0),
+    ),
+    Class::Assembly.fault("triangle-doubled", "a triangle added twice", SUM, &[Blind::AnglesBelow(1.0)], |s, r| {
+        counted(s, r, 2.0)
     }),
-    fault("triangle-doubled", "a triangle added twice", SUM, &[Blind::AnglesBelow(1.0)], |s, r| counted(s, r, 2.0)),
-    fault(
+    Class::Assembly.fault(
         "triangle-subtracted",
         "a triangle with the other orientation, whose signed area turns its cotangents round",
         SUM,
         &[Blind::AnglesBelow(1.0)],
         |s, r| counted(s, r, -1.0),
     ),
-    fault(
+    Class::Assembly.fault(
         "half-edge-twice",
         "a half-edge visited twice: one cotangent counts double",
         SUM,
@@ -94,7 +87,7 @@ pub(super) static FAULTS: &[Fault] = &[
             s.assembled(weights, &triangles)
         },
     ),
-    fault(
+    Class::Assembly.fault(
         "half-edge-missed",
         "a half-edge that the loop ends before: one cotangent does not count",
         SUM,
@@ -106,7 +99,7 @@ pub(super) static FAULTS: &[Fault] = &[
             s.assembled(weights, &triangles)
         },
     ),
-    fault(
+    Class::Assembly.fault(
         "last-triangle-missed",
         "the loop over triangles ends one too early",
         SUM,
@@ -116,7 +109,7 @@ pub(super) static FAULTS: &[Fault] = &[
             s.assembled(triangles[..triangles.len() - 1].iter().flat_map(Triangle::weights), &triangles)
         },
     ),
-    fault(
+    Class::Assembly.fault(
         "overwritten",
         "contributions to a place are assigned, not added: the last triangle wins",
         &["NULL"],
@@ -134,7 +127,7 @@ pub(super) static FAULTS: &[Fault] = &[
             s.with_mistake(&Csr::from_triplets(n, n, &triplets), &correct)
         },
     ),
-    fault(
+    Class::Assembly.fault(
         "diagonal-counted-once",
         "the diagonal gets each weight at one end of its edge only",
         &["NULL"],
@@ -147,7 +140,7 @@ pub(super) static FAULTS: &[Fault] = &[
             s.with_mistake(&correct.map(|i, j, v| if i == j { diagonal[i] } else { *v }), &correct)
         },
     ),
-    fault(
+    Class::Assembly.fault(
         "one-side-for-both",
         "inside, the first cotangent taken for both",
         SUM,
@@ -167,7 +160,7 @@ pub(super) static FAULTS: &[Fault] = &[
             s.assembled(weights, &triangles)
         },
     ),
-    fault(
+    Class::Assembly.fault(
         "flipped-in-space",
         "an edge flipped as if it were intrinsic: two chords across the fold for the two triangles",
         &["LOC", "ENERGY"],

@@ -1,21 +1,7 @@
 //! The boundary is treated as it should not be.
 
 use super::site::{Site, Triangle};
-use super::{Blind, Class, Fault};
-use crate::operator::Operator;
-use crate::stream::Stream;
-
-type Spoilt = Result<Operator, &'static str>;
-
-const fn fault(
-    id: &'static str,
-    what: &'static str,
-    caught_by: &'static [&'static str],
-    blind: &'static [Blind],
-    change: fn(&Site, &mut Stream) -> Spoilt,
-) -> Fault {
-    Fault { id, what, class: Class::Boundary, masses: &[], caught_by, blind, change }
-}
+use super::{Blind, Class, Fault, Spoilt};
 
 /// What sees the boundary.
 const BOUNDARY: &[&str] = &["FLUX", "ENERGY"];
@@ -37,35 +23,35 @@ fn weights(site: &Site, on_boundary: bool, factor: f64) -> Spoilt {
 
 /// The faults.
 pub(super) static FAULTS: &[Fault] = &[
-    fault(
+    Class::Boundary.fault(
         "boundary-weights-doubled",
         "the one cotangent of a boundary edge counted as if there were two",
         BOUNDARY,
         SLIVERS,
         |s, _| weights(s, true, 2.0),
     ),
-    fault(
+    Class::Boundary.fault(
         "boundary-weights-halved",
         "the mean of one cotangent and none: ¼ cot on the boundary",
         BOUNDARY,
         SLIVERS,
         |s, _| weights(s, true, 0.5),
     ),
-    fault(
+    Class::Boundary.fault(
         "boundary-weights-missing",
         "no weight on boundary edges, as of a loop over pairs of triangles",
         BOUNDARY,
         SLIVERS,
         |s, _| weights(s, true, 0.0),
     ),
-    fault(
+    Class::Boundary.fault(
         "interior-weights-halved",
         "the factor ½ taken twice inside, and once on the boundary",
         &["ENERGY", "FLUX"],
         SLIVERS,
         |s, _| weights(s, false, 0.5),
     ),
-    fault(
+    Class::Boundary.fault(
         "boundary-rows-zero",
         "the rows of boundary vertices never filled",
         &["SYM", "FLUX", "ENERGY"],
@@ -75,7 +61,7 @@ pub(super) static FAULTS: &[Fault] = &[
             s.mapped(|i, _, v| if on_boundary[i] { 0.0 } else { *v })
         },
     ),
-    fault(
+    Class::Boundary.fault(
         "triangles-at-boundary-missed",
         "triangles with a boundary edge left out",
         &["ENERGY", "FLUX", "LIN"],

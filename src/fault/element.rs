@@ -1,21 +1,7 @@
 //! An element contributes the wrong number. Assembled again from triangles.
 
 use super::site::{Site, Triangle, stiffness};
-use super::{Blind, Class, Fault};
-use crate::operator::Operator;
-use crate::stream::Stream;
-
-type Spoilt = Result<Operator, &'static str>;
-
-const fn fault(
-    id: &'static str,
-    what: &'static str,
-    caught_by: &'static [&'static str],
-    blind: &'static [Blind],
-    change: fn(&Site, &mut Stream) -> Spoilt,
-) -> Fault {
-    Fault { id, what, class: Class::Element, masses: &[], caught_by, blind, change }
-}
+use super::{Blind, Class, Fault, Spoilt};
 
 /// What sees a wrong weight: the energy first, since some of these make every weight wrong alike.
 const WEIGHTS: &[&str] = &["ENERGY", "LIN", "FLUX"];
@@ -41,34 +27,39 @@ fn finished(site: &Site, f: impl Fn(f64) -> f64) -> Spoilt {
 
 /// The faults.
 pub(super) static FAULTS: &[Fault] = &[
-    fault("cosine-for-cotangent", "½ cos θ for ½ cot θ", WEIGHTS, SLIVERS, |s, _| {
+    Class::Element.fault("cosine-for-cotangent", "½ cos θ for ½ cot θ", WEIGHTS, SLIVERS, |s, _| {
         each(s, |t, c| 0.5 * t.angle(c).cos())
     }),
-    fault("tangent-for-cotangent", "½ tan θ for ½ cot θ", WEIGHTS, SLIVERS, |s, _| {
+    Class::Element.fault("tangent-for-cotangent", "½ tan θ for ½ cot θ", WEIGHTS, SLIVERS, |s, _| {
         each(s, |t, c| 0.5 * t.angle(c).tan())
     }),
-    fault("degrees-for-radians", "angles in degrees given to a function of radians", WEIGHTS, SLIVERS, |s, _| {
-        each(s, |t, c| 0.5 / t.angle(c).to_degrees().tan())
-    }),
-    fault("angle-for-cotangent", "½ θ for ½ cot θ", WEIGHTS, SLIVERS, |s, _| each(s, |t, c| 0.5 * t.angle(c))),
-    fault("area-for-angle", "half the area for half the cotangent", WEIGHTS, SLIVERS, |s, _| {
+    Class::Element.fault(
+        "degrees-for-radians",
+        "angles in degrees given to a function of radians",
+        WEIGHTS,
+        SLIVERS,
+        |s, _| each(s, |t, c| 0.5 / t.angle(c).to_degrees().tan()),
+    ),
+    Class::Element
+        .fault("angle-for-cotangent", "½ θ for ½ cot θ", WEIGHTS, SLIVERS, |s, _| each(s, |t, c| 0.5 * t.angle(c))),
+    Class::Element.fault("area-for-angle", "half the area for half the cotangent", WEIGHTS, SLIVERS, |s, _| {
         each(s, |t, _| 0.5 * t.area())
     }),
-    fault(
+    Class::Element.fault(
         "angle-at-wrong-corner",
         "the cotangent of the next corner for that of the one opposite",
         WEIGHTS,
         SLIVERS,
         |s, _| each(s, |t, c| 0.5 * t.cotangents[(c + 1) % 3]),
     ),
-    fault(
+    Class::Element.fault(
         "adjacent-for-opposite",
         "the mean cotangent of the two angles beside an edge for that of the one opposite",
         WEIGHTS,
         SLIVERS,
         |s, _| each(s, |t, c| 0.25 * (t.cotangents[(c + 1) % 3] + t.cotangents[(c + 2) % 3])),
     ),
-    fault(
+    Class::Element.fault(
         "one-wrong-corner",
         "in one triangle the cotangents are one corner on",
         WEIGHTS,
@@ -84,21 +75,21 @@ pub(super) static FAULTS: &[Fault] = &[
             s.assembled(weights, &triangles)
         },
     ),
-    fault(
+    Class::Element.fault(
         "unnormalised-dot",
         "the dot product of the sides for the cotangent: not divided by the cross product",
         WEIGHTS,
         SLIVERS,
         |s, _| each(s, |t, c| t.cotangents[c] * t.area()),
     ),
-    fault(
+    Class::Element.fault(
         "area-not-doubled",
         "the dot product over the area, and not over twice the area",
         &["ENERGY", "FLUX"],
         SLIVERS,
         |s, _| each(s, |t, c| t.cotangents[c]),
     ),
-    fault(
+    Class::Element.fault(
         "lengths-for-squares",
         "edge lengths for their squares in (b² + c² − a²) / 8A",
         WEIGHTS,
@@ -110,35 +101,40 @@ pub(super) static FAULTS: &[Fault] = &[
             })
         },
     ),
-    fault("clamped-cotangent", "negative cotangents set to zero", WEIGHTS, SLIVERS, |s, _| {
+    Class::Element.fault("clamped-cotangent", "negative cotangents set to zero", WEIGHTS, SLIVERS, |s, _| {
         each(s, |t, c| 0.5 * t.cotangents[c].max(0.0))
     }),
-    fault(
+    Class::Element.fault(
         "absolute-cotangent",
         "the magnitude of the cotangent, as from an unsigned sine and cosine",
         WEIGHTS,
         SLIVERS,
         |s, _| each(s, |t, c| 0.5 * t.cotangents[c].abs()),
     ),
-    fault("clamped-weight", "negative weights set to zero", WEIGHTS, SLIVERS, |s, _| finished(s, |w| w.max(0.0))),
-    fault(
+    Class::Element
+        .fault("clamped-weight", "negative weights set to zero", WEIGHTS, SLIVERS, |s, _| finished(s, |w| w.max(0.0))),
+    Class::Element.fault(
         "clamped-to-1e-3",
         "weights below 1e-3 set to 1e-3, to make the matrix an M-matrix",
         WEIGHTS,
         SLIVERS,
         |s, _| finished(s, |w| w.max(1e-3)),
     ),
-    fault(
+    Class::Element.fault(
         "cotangent-cut-at-10",
         "cotangents cut off at ±10, to be safe from slivers",
         WEIGHTS,
         &[Blind::AnglesBelow(1.0)],
         |s, _| each(s, |t, c| 0.5 * t.cotangents[c].clamp(-10.0, 10.0)),
     ),
-    fault("uniform-weights", "the weight 1 for every edge: the graph's Laplacian", WEIGHTS, SLIVERS, |s, _| {
-        finished(s, |_| 1.0)
-    }),
-    fault(
+    Class::Element.fault(
+        "uniform-weights",
+        "the weight 1 for every edge: the graph's Laplacian",
+        WEIGHTS,
+        SLIVERS,
+        |s, _| finished(s, |_| 1.0),
+    ),
+    Class::Element.fault(
         "mean-of-two-on-all",
         "every weight the mean of its two cotangents, also where there is one",
         &["ENERGY", "FLUX"],

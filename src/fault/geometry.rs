@@ -1,21 +1,7 @@
 //! The vertices are elsewhere. Assembled again from the moved triangles.
 
 use super::site::{Site, Triangle};
-use super::{Blind, Class, Fault};
-use crate::operator::Operator;
-use crate::stream::Stream;
-
-type Spoilt = Result<Operator, &'static str>;
-
-const fn fault(
-    id: &'static str,
-    what: &'static str,
-    caught_by: &'static [&'static str],
-    blind: &'static [Blind],
-    change: fn(&Site, &mut Stream) -> Spoilt,
-) -> Fault {
-    Fault { id, what, class: Class::Geometry, masses: &[], caught_by, blind, change }
-}
+use super::{Blind, Class, Fault, Spoilt};
 
 /// Assembles with every vertex moved by a function of (vertex, position).
 fn moved(site: &Site, f: impl FnMut((usize, &[f64; 3])) -> [f64; 3]) -> Spoilt {
@@ -60,21 +46,21 @@ fn axes(site: &Site) -> Result<[bool; 3], &'static str> {
 
 /// The faults.
 pub(super) static FAULTS: &[Fault] = &[
-    fault(
+    Class::Geometry.fault(
         "stretched-by-2",
         "one axis stretched to twice its length",
         &["ENERGY", "FLUX"],
         &[Blind::AnglesBelow(1.0)],
         |s, _| stretched(s, 2.0),
     ),
-    fault(
+    Class::Geometry.fault(
         "stretched-by-1e-6",
         "one axis stretched by 1e-6 of its length: inches against rounded millimetres",
         &["ENERGY", "FLUX"],
         &[Blind::AnglesBelow(1.0), Blind::Curved],
         |s, _| stretched(s, 1.0 + 1e-6),
     ),
-    fault(
+    Class::Geometry.fault(
         "vertex-moved",
         "one vertex where it was before the last edit, a tenth of an edge away",
         &["ENERGY", "LIN", "FLUX"],
@@ -88,7 +74,7 @@ pub(super) static FAULTS: &[Fault] = &[
             })
         },
     ),
-    fault(
+    Class::Geometry.fault(
         "another-mesh",
         "the matrix of a mesh with the same faces, every vertex up to a twentieth of an edge away",
         &["ENERGY", "LIN", "FLUX"],
@@ -100,14 +86,14 @@ pub(super) static FAULTS: &[Fault] = &[
             })
         },
     ),
-    fault(
+    Class::Geometry.fault(
         "projected",
         "the third coordinate of a curved mesh left out",
         &["ENERGY"],
         &[Blind::AnglesBelow(1.0)],
         |s, _| moved(s, |(_, p)| [p[0], p[1], 0.0]),
     ),
-    fault(
+    Class::Geometry.fault(
         "coordinates-exchanged",
         "two coordinates of one vertex exchanged",
         &["ENERGY", "LIN", "FLUX"],
@@ -125,21 +111,21 @@ pub(super) static FAULTS: &[Fault] = &[
             })
         },
     ),
-    fault(
+    Class::Geometry.fault(
         "coordinates-in-f32",
         "coordinates read in single precision",
         &["ENERGY", "LIN", "FLUX"],
         &[Blind::AnglesBelow(3.0), Blind::Curved],
         |s, _| moved(s, |(_, p)| p.map(|x| f64::from(x as f32))),
     ),
-    fault(
+    Class::Geometry.fault(
         "coordinates-to-6-digits",
         "coordinates printed with six digits",
         &["ENERGY", "LIN", "FLUX"],
         &[Blind::AnglesBelow(1.0), Blind::Curved],
         |s, _| moved(s, |(_, p)| p.map(|x| format!("{x:.5e}").parse().unwrap_or(x))),
     ),
-    fault(
+    Class::Geometry.fault(
         "far-from-origin",
         "weights computed a million diameters from the origin",
         &["ENERGY", "LIN", "FLUX"],

@@ -1,22 +1,9 @@
 //! The right numbers in the wrong places.
 
 use super::site::{Site, Triangle, pick};
-use super::{Blind, Class, Fault};
+use super::{Blind, Class, Fault, Spoilt};
 use crate::linalg::Csr;
-use crate::operator::Operator;
 use crate::stream::Stream;
-
-type Spoilt = Result<Operator, &'static str>;
-
-const fn fault(
-    id: &'static str,
-    what: &'static str,
-    caught_by: &'static [&'static str],
-    blind: &'static [Blind],
-    change: fn(&Site, &mut Stream) -> Spoilt,
-) -> Fault {
-    Fault { id, what, class: Class::Index, masses: &[], caught_by, blind, change }
-}
 
 /// What sees a row that belongs to another vertex.
 const PLACES: &[&str] = &["LOC", "ENERGY", "LIN", "FLUX"];
@@ -46,23 +33,35 @@ fn misread(site: &Site, stream: &mut Stream, by: usize) -> Spoilt {
 
 /// The faults.
 pub(super) static FAULTS: &[Fault] = &[
-    fault("vertices-swapped", "rows and columns of two vertices exchanged", PLACES, BLIND, |s, r| {
+    Class::Index.fault("vertices-swapped", "rows and columns of two vertices exchanged", PLACES, BLIND, |s, r| {
         let n = s.size();
         let (i, j) = (s.live_row(r)?, r.below(n));
         let mut to: Vec<usize> = (0..n).collect();
         to.swap(i, j);
         renumbered(s, &to)
     }),
-    fault("vertices-permuted", "the vertices in another order than those of the mesh", PLACES, BLIND, |s, r| {
-        let mut to: Vec<usize> = (0..s.size()).collect();
-        r.shuffle(&mut to);
-        renumbered(s, &to)
-    }),
-    fault("indices-off-by-one", "every index one too large, the last one wrapped round", PLACES, BLIND, |s, _| {
-        let n = s.size();
-        renumbered(s, &(0..n).map(|i| (i + 1) % n).collect::<Vec<_>>())
-    }),
-    fault(
+    Class::Index.fault(
+        "vertices-permuted",
+        "the vertices in another order than those of the mesh",
+        PLACES,
+        BLIND,
+        |s, r| {
+            let mut to: Vec<usize> = (0..s.size()).collect();
+            r.shuffle(&mut to);
+            renumbered(s, &to)
+        },
+    ),
+    Class::Index.fault(
+        "indices-off-by-one",
+        "every index one too large, the last one wrapped round",
+        PLACES,
+        BLIND,
+        |s, _| {
+            let n = s.size();
+            renumbered(s, &(0..n).map(|i| (i + 1) % n).collect::<Vec<_>>())
+        },
+    ),
+    Class::Index.fault(
         "rows-off-by-one",
         "row indices one too large, column indices right",
         &["SYM", "LOC"],
@@ -73,14 +72,14 @@ pub(super) static FAULTS: &[Fault] = &[
             s.with_stiffness(Csr::from_triplets(n, n, &triplets))
         },
     ),
-    fault(
+    Class::Index.fault(
         "corner-off-by-one",
         "one corner of one triangle one index too large",
         PLACES,
         &[Blind::AnglesBelow(1.0), Blind::Curved],
         |s, r| misread(s, r, 1),
     ),
-    fault(
+    Class::Index.fault(
         "corner-misread",
         "one corner of one triangle read as some other vertex",
         PLACES,
@@ -90,7 +89,7 @@ pub(super) static FAULTS: &[Fault] = &[
             misread(s, r, by)
         },
     ),
-    fault(
+    Class::Index.fault(
         "row-and-column-of-another",
         "the row of one vertex written to another, its column not",
         &["SYM"],
@@ -106,7 +105,7 @@ pub(super) static FAULTS: &[Fault] = &[
             s.with_stiffness(Csr::from_triplets(n, n, &rest.chain(copy).collect::<Vec<_>>()))
         },
     ),
-    fault(
+    Class::Index.fault(
         "vertices-welded",
         "the contributions to one vertex added to a neighbour's, as by a weld",
         &["KER", "ENERGY", "LIN", "FLUX", "LOC"],

@@ -1,12 +1,10 @@
 //! The mass matrix is that of another rule, of another scale, or in another order.
 
 use super::site::{Site, Triangle, lumped};
-use super::{Blind, Class, Fault};
+use super::{Blind, Class, Fault, Spoilt};
 use crate::linalg::Csr;
-use crate::operator::{MassKind, Operator};
+use crate::operator::MassKind;
 use crate::stream::Stream;
-
-type Spoilt = Result<Operator, &'static str>;
 
 /// Masses that are positive and add up to the area.
 const ANY: &[MassKind] = &[MassKind::Barycentric, MassKind::Mixed, MassKind::Consistent];

@@ -1,11 +1,9 @@
 //! One mass is wrong, or all lose digits.
 
 use super::site::{Site, Triangle, lumped, pick, replaced};
-use super::{Blind, Class, Fault};
-use crate::operator::{MassKind, Operator};
+use super::{Blind, Class, Fault, Spoilt};
+use crate::operator::MassKind;
 use crate::stream::Stream;
-
-type Spoilt = Result<Operator, &'static str>;
 
 /// Masses that are positive and add up to the area.
 const ANY: &[MassKind] = &[MassKind::Barycentric, MassKind::Mixed, MassKind::Consistent];

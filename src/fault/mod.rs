@@ -47,6 +47,9 @@ use crate::operator::{MassKind, Operator};
 use crate::stream::Stream;
 pub use site::Site;
 
+/// The spoilt operator, or why a fault does not apply to it.
+pub type Spoilt = Result<Operator, &'static str>;
+
 /// A way to spoil an operator.
 pub struct Fault {
     /// The id, in kebab case.
@@ -63,7 +66,7 @@ pub struct Fault {
     /// Where those properties cannot see it, and only the comparison with the operator that is meant can.
     pub blind: &'static [Blind],
     /// Does it. The error says why it does not apply here.
-    pub change: fn(&Site, &mut Stream) -> Result<Operator, &'static str>,
+    pub change: fn(&Site, &mut Stream) -> Spoilt,
 }
 
 /// The kind of mistake.
@@ -105,6 +108,18 @@ impl Class {
         Class::Rounding,
         Class::Mass,
     ];
+
+    /// A fault of this class, of the stiffness matrix.
+    const fn fault(
+        self,
+        id: &'static str,
+        what: &'static str,
+        caught_by: &'static [&'static str],
+        blind: &'static [Blind],
+        change: fn(&Site, &mut Stream) -> Spoilt,
+    ) -> Fault {
+        Fault { id, what, class: self, masses: &[], caught_by, blind, change }
+    }
 
     /// The class in a word.
     pub fn name(self) -> &'static str {

@@ -1,11 +1,8 @@
 //! One weight is wrong in both directions: the matrix stays symmetric. With the diagonal corrected its rows still sum to zero.
 
 use super::site::{Site, pick};
-use super::{Blind, Class, Fault};
-use crate::operator::Operator;
+use super::{Blind, Class, Fault, Spoilt};
 use crate::stream::Stream;
-
-type Spoilt = Result<Operator, &'static str>;
 
 /// Multiplies a weight; `balanced`: and takes the difference to the diagonal.
 fn weight(site: &Site, [i, j]: [usize; 2], factor: f64, balanced: bool) -> Spoilt {
@@ -24,92 +21,82 @@ fn scaled(site: &Site, stream: &mut Stream, factor: f64, balanced: bool) -> Spoi
     weight(site, site.heavy_edge(stream)?, factor, balanced)
 }
 
-const fn fault(
-    id: &'static str,
-    what: &'static str,
-    caught_by: &'static [&'static str],
-    blind: &'static [Blind],
-    change: fn(&Site, &mut Stream) -> Spoilt,
-) -> Fault {
-    Fault { id, what, class: Class::Entry, masses: &[], caught_by, blind, change }
-}
-
 /// What sees a weight that is wrong while symmetry and row sums are right.
 const BALANCED: &[&str] = &["LIN", "FLUX", "ENERGY"];
 
 /// The faults.
 pub(super) static FAULTS: &[Fault] = &[
-    fault(
+    Class::Entry.fault(
         "sign-of-a-weight",
         "the sign of a weight, the diagonal left as it was",
         &["NULL"],
         &[Blind::AnglesBelow(0.1)],
         |s, r| scaled(s, r, -1.0, false),
     ),
-    fault(
+    Class::Entry.fault(
         "sign-of-a-weight-balanced",
         "the sign of a weight, with the diagonal that goes with it",
         BALANCED,
         &[Blind::AnglesBelow(1.0), Blind::Graph],
         |s, r| scaled(s, r, -1.0, true),
     ),
-    fault(
+    Class::Entry.fault(
         "weight-off-1e-6",
         "a weight off by 1e-6 of itself, the diagonal as it was",
         &["NULL"],
         &[Blind::AnglesBelow(0.1)],
         |s, r| scaled(s, r, 1.0 + 1e-6, false),
     ),
-    fault(
+    Class::Entry.fault(
         "weight-off-1e-9",
         "a weight off by 1e-9 of itself, the diagonal as it was",
         &["NULL"],
         &[Blind::AnglesBelow(3.0)],
         |s, r| scaled(s, r, 1.0 + 1e-9, false),
     ),
-    fault(
+    Class::Entry.fault(
         "weight-off-1e-12",
         "a weight off by 1e-12 of itself, the diagonal as it was",
         &["NULL"],
         &[Blind::AnglesBelow(30.0), Blind::Anywhere("in the sum of a long row 1e-12 of one entry is rounding")],
         |s, r| scaled(s, r, 1.0 + 1e-12, false),
     ),
-    fault(
+    Class::Entry.fault(
         "weight-off-1e-6-balanced",
         "a weight off by 1e-6 of itself, with the diagonal that goes with it",
         BALANCED,
         &[Blind::AnglesBelow(1.0), Blind::Curved, Blind::Unsound, Blind::Graph],
         |s, r| scaled(s, r, 1.0 + 1e-6, true),
     ),
-    fault(
+    Class::Entry.fault(
         "weight-off-1e-9-balanced",
         "a weight off by 1e-9 of itself, with the diagonal that goes with it",
         BALANCED,
         &[Blind::AnglesBelow(3.0), Blind::Curved, Blind::Unsound, Blind::Graph],
         |s, r| scaled(s, r, 1.0 + 1e-9, true),
     ),
-    fault(
+    Class::Entry.fault(
         "weight-missing",
         "an edge without its weight, the diagonal as it was",
         &["NULL"],
         &[Blind::AnglesBelow(0.1)],
         |s, r| scaled(s, r, 0.0, false),
     ),
-    fault(
+    Class::Entry.fault(
         "weight-missing-balanced",
         "an edge forgotten altogether, diagonal included",
         BALANCED,
         &[Blind::AnglesBelow(1.0), Blind::Graph],
         |s, r| scaled(s, r, 0.0, true),
     ),
-    fault(
+    Class::Entry.fault(
         "weight-doubled",
         "an edge counted twice, diagonal included",
         BALANCED,
         &[Blind::AnglesBelow(1.0), Blind::Graph],
         |s, r| scaled(s, r, 2.0, true),
     ),
-    fault(
+    Class::Entry.fault(
         "weight-denormal",
         "a weight flushed to the smallest number, the diagonal as it was",
         &["NULL"],
@@ -120,7 +107,7 @@ pub(super) static FAULTS: &[Fault] = &[
             s.with_entries(&[(i, j, tiny), (j, i, tiny)])
         },
     ),
-    fault(
+    Class::Entry.fault(
         "two-weights-swapped",
         "the weights of two edges at a vertex, exchanged",
         &["NULL"],

@@ -1,21 +1,8 @@
 //! A row, a column or the diagonal is wrong.
 
 use super::site::{Site, closed, pick};
-use super::{Blind, Class, Fault};
-use crate::operator::Operator;
+use super::{Blind, Class, Fault, Spoilt};
 use crate::stream::Stream;
-
-type Spoilt = Result<Operator, &'static str>;
-
-const fn fault(
-    id: &'static str,
-    what: &'static str,
-    caught_by: &'static [&'static str],
-    blind: &'static [Blind],
-    change: fn(&Site, &mut Stream) -> Spoilt,
-) -> Fault {
-    Fault { id, what, class: Class::Row, masses: &[], caught_by, blind, change }
-}
 
 /// Multiplies a row.
 fn row_times(site: &Site, stream: &mut Stream, factor: f64) -> Spoilt {
@@ -40,27 +27,39 @@ fn diagonal(site: &Site, f: impl Fn(f64, f64) -> f64) -> Spoilt {
 
 /// The faults.
 pub(super) static FAULTS: &[Fault] = &[
-    fault("row-doubled", "a row counted twice", &["SYM"], &[Blind::AnglesBelow(0.01)], |s, r| row_times(s, r, 2.0)),
-    fault("row-scaled-1e-9", "a row off by the factor 1 + 1e-9", &["SYM"], &[Blind::AnglesBelow(0.1)], |s, r| {
-        row_times(s, r, 1.0 + 1e-9)
+    Class::Row.fault("row-doubled", "a row counted twice", &["SYM"], &[Blind::AnglesBelow(0.01)], |s, r| {
+        row_times(s, r, 2.0)
     }),
-    fault("row-zero", "a row that was never filled", &["SYM"], &[Blind::AnglesBelow(0.01)], |s, r| {
+    Class::Row.fault(
+        "row-scaled-1e-9",
+        "a row off by the factor 1 + 1e-9",
+        &["SYM"],
+        &[Blind::AnglesBelow(0.1)],
+        |s, r| row_times(s, r, 1.0 + 1e-9),
+    ),
+    Class::Row.fault("row-zero", "a row that was never filled", &["SYM"], &[Blind::AnglesBelow(0.01)], |s, r| {
         row_times(s, r, 0.0)
     }),
-    fault("row-reversed", "the weights of a row in reverse order", &["SYM"], &[Blind::AnglesBelow(0.1)], |s, r| {
-        let i = s.live_row(r)?;
-        let row: Vec<(usize, f64)> = s.stiffness().row(i).filter(|(j, _)| *j != i).map(|(j, v)| (j, *v)).collect();
-        let turned: Vec<_> = row.iter().zip(row.iter().rev()).map(|(&(j, _), &(_, v))| (i, j, v)).collect();
-        s.with_entries(&turned)
-    }),
-    fault(
+    Class::Row.fault(
+        "row-reversed",
+        "the weights of a row in reverse order",
+        &["SYM"],
+        &[Blind::AnglesBelow(0.1)],
+        |s, r| {
+            let i = s.live_row(r)?;
+            let row: Vec<(usize, f64)> = s.stiffness().row(i).filter(|(j, _)| *j != i).map(|(j, v)| (j, *v)).collect();
+            let turned: Vec<_> = row.iter().zip(row.iter().rev()).map(|(&(j, _), &(_, v))| (i, j, v)).collect();
+            s.with_entries(&turned)
+        },
+    ),
+    Class::Row.fault(
         "upper-triangle-only",
         "only the entries above the diagonal stored, as of a symmetric format",
         &["SYM"],
         &[Blind::AnglesBelow(0.01)],
         |s, _| s.mapped(|i, j, v| if j < i { 0.0 } else { *v }),
     ),
-    fault(
+    Class::Row.fault(
         "divided-by-degree",
         "D⁻¹L, the random walk's matrix, for L",
         &["SYM", "ENERGY"],
@@ -70,7 +69,7 @@ pub(super) static FAULTS: &[Fault] = &[
             s.mapped(|i, _, v| if l.at(i, i) == 0.0 { *v } else { v / l.at(i, i) })
         },
     ),
-    fault(
+    Class::Row.fault(
         "divided-by-mass",
         "M⁻¹L, the pointwise operator, for L",
         &["SYM", "ENERGY"],
@@ -80,7 +79,7 @@ pub(super) static FAULTS: &[Fault] = &[
             s.mapped(|i, _, v| if mass[i] > 0.0 { v / mass[i] } else { *v })
         },
     ),
-    fault(
+    Class::Row.fault(
         "skew-part",
         "a skew-symmetric part of 1e-6 of the weights",
         &["SYM"],
@@ -97,7 +96,7 @@ pub(super) static FAULTS: &[Fault] = &[
             })
         },
     ),
-    fault(
+    Class::Row.fault(
         "diagonal-missing",
         "a diagonal entry that was never written",
         &["NULL"],
@@ -107,7 +106,7 @@ pub(super) static FAULTS: &[Fault] = &[
             s.with_entries(&[(i, i, 0.0)])
         },
     ),
-    fault(
+    Class::Row.fault(
         "diagonal-stale",
         "a diagonal entry summed before its last weight came",
         &["NULL"],
@@ -117,7 +116,7 @@ pub(super) static FAULTS: &[Fault] = &[
             s.with_entries(&[(i, i, s.stiffness().at(i, i) + s.stiffness().at(i, j))])
         },
     ),
-    fault(
+    Class::Row.fault(
         "diagonal-off-1e-9",
         "a diagonal entry off by 1e-9 of itself",
         &["NULL"],
@@ -127,24 +126,28 @@ pub(super) static FAULTS: &[Fault] = &[
             s.with_entries(&[(i, i, s.stiffness().at(i, i) * (1.0 + 1e-9))])
         },
     ),
-    fault("diagonal-negated", "the diagonal with the other sign", &["NULL"], &[Blind::AnglesBelow(0.01)], |s, _| {
-        diagonal(s, |d, _| -d)
-    }),
-    fault(
+    Class::Row.fault(
+        "diagonal-negated",
+        "the diagonal with the other sign",
+        &["NULL"],
+        &[Blind::AnglesBelow(0.01)],
+        |s, _| diagonal(s, |d, _| -d),
+    ),
+    Class::Row.fault(
         "diagonal-of-magnitudes",
         "the diagonal Σ|ω_ij| for Σω_ij",
         &["NULL"],
         &[Blind::AnglesBelow(1.0)],
         |s, _| diagonal(s, |d, scale| if scale - d.abs() > (1.0 + 1e-9) * d.abs() { scale - d.abs() } else { d }),
     ),
-    fault(
+    Class::Row.fault(
         "diagonal-shifted-1e-8",
         "1e-8 of each row's diagonal added to it, to make the matrix regular",
         &["NULL"],
         &[Blind::AnglesBelow(1.0)],
         |s, _| diagonal(s, |d, _| d * (1.0 + 1e-8)),
     ),
-    fault(
+    Class::Row.fault(
         "vertex-pinned",
         "a penalty on the diagonal of one vertex, to make the matrix regular",
         &["NULL"],
@@ -154,13 +157,19 @@ pub(super) static FAULTS: &[Fault] = &[
             s.with_entries(&[(i, i, s.stiffness().at(i, i) + s.stiffness().row_scales()[i])])
         },
     ),
-    fault("isolated-vertex-given-1", "a 1 on the diagonal of a vertex without neighbours", &["NULL"], &[], |s, r| {
-        let scales = s.stiffness().row_scales();
-        let alone: Vec<usize> = (0..s.size()).filter(|&i| scales[i] == 0.0).collect();
-        let i = pick(&alone, r).ok_or("there is no isolated vertex")?;
-        s.with_entries(&[(i, i, 1.0)])
-    }),
-    fault(
+    Class::Row.fault(
+        "isolated-vertex-given-1",
+        "a 1 on the diagonal of a vertex without neighbours",
+        &["NULL"],
+        &[],
+        |s, r| {
+            let scales = s.stiffness().row_scales();
+            let alone: Vec<usize> = (0..s.size()).filter(|&i| scales[i] == 0.0).collect();
+            let i = pick(&alone, r).ok_or("there is no isolated vertex")?;
+            s.with_entries(&[(i, i, 1.0)])
+        },
+    ),
+    Class::Row.fault(
         "boundary-row-eliminated",
         "the row of a boundary vertex replaced by that of the identity, its column kept",
         &["SYM"],
@@ -170,7 +179,7 @@ pub(super) static FAULTS: &[Fault] = &[
             s.mapped(|i, j, v| if i != b { *v } else { f64::from(i == j) })
         },
     ),
-    fault(
+    Class::Row.fault(
         "boundary-vertex-eliminated",
         "row and column of a boundary vertex replaced by those of the identity",
         &["NULL"],
@@ -180,7 +189,7 @@ pub(super) static FAULTS: &[Fault] = &[
             s.mapped(|i, j, v| if i != b && j != b { *v } else { f64::from(i == j) })
         },
     ),
-    fault(
+    Class::Row.fault(
         "boundary-rows-eliminated",
         "every row of a boundary vertex replaced by that of the identity",
         &["SYM", "NULL"],
@@ -191,7 +200,7 @@ pub(super) static FAULTS: &[Fault] = &[
             s.mapped(|i, j, v| if on_boundary[i] { f64::from(i == j) } else { *v })
         },
     ),
-    fault(
+    Class::Row.fault(
         "vertex-cut-off",
         "every weight at one vertex missing, diagonals included",
         &["KER", "LIN", "FLUX", "ENERGY"],

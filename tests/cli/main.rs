@@ -3,6 +3,7 @@
 mod catalogue;
 mod check;
 mod external;
+mod jury;
 mod recheck;
 mod run;
 mod writing;
@@ -80,8 +81,10 @@ impl Scratch {
     }
 }
 
-const VERBS: [&str; 10] =
-    ["run", "check", "verify", "witness", "list", "explain", "generate", "export", "report", "recheck"];
+const VERBS: [&str; 12] = [
+    "run", "check", "verify", "witness", "list", "explain", "generate", "export", "report", "recheck", "faults",
+    "campaign",
+];
 
 #[test]
 fn the_help_of_every_verb_has_an_example_of_it() {
