@@ -391,6 +391,22 @@ mod tests {
     }
 
     #[test]
+    fn what_residuals_or_rounding_could_hide_is_not_certified() {
+        let (l, _) = torus(15, 17);
+        let mass = Csr::diagonal(&vec![1.0; 255]);
+        let pencil = Pencil::new(&l, &mass).unwrap();
+        let found = pencil.dense(20).unwrap();
+        let (count, cut) = (found.values.len(), found.closure.cut);
+        let certified = |shaken: f64, backward_error: f64| {
+            let vectors = Mat::from_fn(255, count, |i, j| found.vector(j)[i] + if i == j { shaken } else { 0.0 });
+            pencil.spectrum(found.values.clone(), &vectors, cut, (count, backward_error), 0).closure.certified
+        };
+        let room = cut - found.values[count - 1];
+        assert!(certified(0.0, 0.0) && certified(1e-9, 0.5 * room));
+        assert!(!certified(room, 0.0) && !certified(0.0, 1.5 * room));
+    }
+
+    #[test]
     fn eigenvectors_are_orthonormal_in_a_full_mass() {
         // P1 elements on an interval of 700 cells: λ = 6/h² (1 − cos kh)/(2 + cos kh), kh = πj/700.
         let (n, h) = (701, 1.0 / 700.0);

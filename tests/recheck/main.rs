@@ -5,6 +5,7 @@ mod imports;
 mod mutation;
 mod operators;
 mod performance;
+mod spectra;
 mod spoilt;
 mod triangulations;
 mod witnesses;

@@ -284,3 +284,37 @@ pub(super) fn many(
         *suffices = if usual & dots & heads.area_is_enough { 1.0 } else { 0.0 };
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::rational;
+    use super::*;
+    use crate::stream::Stream;
+
+    #[test]
+    fn the_bound_covers_the_error_before_it_is_rounded_and_is_no_guess() {
+        let mut stream = Stream::new(3, "heads");
+        let (mut tried, mut worst) = (0, 0.0_f64);
+        for k in 0..3000 {
+            // From round triangles to needles of 2⁻³⁰.
+            let flatness = power_of_two(-(k % 31));
+            let mut point =
+                |height: f64| [stream.between(-1.0, 1.0), height * stream.between(-1.0, 1.0), 0.3 * flatness];
+            let corners = [point(flatness), point(flatness), point(flatness)];
+            let heads = Heads::of(&corners);
+            if !heads.area_suffices() {
+                continue;
+            }
+            for corner in 0..3 {
+                let Some(exact) = rational::cotangent(&[0, 1, 2].map(|i| corners[(corner + i) % 3])) else { continue };
+                let found = &heads.cotangents[corner];
+                let error = ((found.high - exact.high) + (found.low - exact.low)).abs();
+                assert!(error <= heads.error(corner), "{corners:?} at {corner}: {error:e}, {:e}", heads.error(corner));
+                worst = worst.max(error / heads.error(corner));
+                tried += 1;
+            }
+        }
+        // A bound that is never approached would hide that it bounds something else.
+        assert!(tried > 1000 && worst > power_of_two(-12), "{tried}, {worst:e}");
+    }
+}

@@ -157,6 +157,9 @@ mod tests {
         let line = cut(&square, &u, 0.75, Boundary::Free);
         assert!((line.length - 0.75 * 2f64.sqrt()).abs() < 1e-14 && (line.area - 9.0 / 32.0).abs() < 1e-14);
         assert!(line.errors.iter().all(|e| *e < 1e-12) && line.curves() == 1);
+        // The true ratio is between both bounds, which leave room for more than its own rounding.
+        let ratio = 0.75 * 2f64.sqrt() / (9.0 / 32.0);
+        assert!(line.at_least() < ratio * (1.0 - f64::EPSILON) && ratio * (1.0 + f64::EPSILON) < line.at_most());
         assert!(line.points(&square).flatten().all(|[x, y, _]| (x + y - 0.75).abs() < 1e-14));
         // Fixed: what lies above, whatever its size.
         assert!((cut(&square, &u, 0.75, Boundary::Fixed).area - 23.0 / 32.0).abs() < 1e-14);
