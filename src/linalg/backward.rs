@@ -19,8 +19,6 @@
 //!
 //! So `k = m + 5`. Underflow is added: each operation may lose `2⁻¹⁰⁷⁴`.
 
-use faer::sparse::linalg::cholesky::{SymbolicCholeskyRaw, supernodal};
-
 use super::factor::Ldlt;
 
 /// The unit roundoff 2⁻⁵³.
@@ -38,28 +36,11 @@ pub fn gamma(k: usize) -> f64 {
 impl Ldlt {
     /// Visits the entries of L strictly below the diagonal, in the numbering of the elimination.
     fn visit_lower(&self, mut visit: impl FnMut(usize, usize, f64)) {
-        match self.symbolic.raw() {
-            SymbolicCholeskyRaw::Simplicial(s) => {
-                for j in 0..s.ncols() {
-                    let range = s.col_ptr()[j]..s.col_ptr()[j + 1];
-                    for (&i, &v) in s.row_idx()[range.clone()].iter().zip(&self.values[range]) {
-                        if i != j {
-                            visit(i, j, v);
-                        }
-                    }
-                }
-            }
-            SymbolicCholeskyRaw::Supernodal(s) => {
-                let factor = supernodal::SupernodalLdltRef::new(s, &self.values);
-                for k in 0..s.n_supernodes() {
-                    let (node, start) = (factor.supernode(k), s.supernode_begin()[k]);
-                    let (block, pattern) = (node.val(), node.pattern());
-                    let width = block.ncols();
-                    for j in 0..width {
-                        (j + 1..width).for_each(|i| visit(start + i, start + j, block[(i, j)]));
-                        pattern.iter().enumerate().for_each(|(i, &at)| visit(at, start + j, block[(width + i, j)]));
-                    }
-                }
+        for node in self.nodes() {
+            for j in 0..node.width {
+                let (own, below) = node.column(j).split_at(node.width);
+                (j + 1..node.width).for_each(|i| visit(node.first + i, node.first + j, own[i]));
+                node.below.iter().zip(below).for_each(|(&i, &v)| visit(i, node.first + j, v));
             }
         }
     }
@@ -69,7 +50,7 @@ impl Ldlt {
     ///
     /// For a matrix `B ≥ 0` that eigenvalue is at most `max_i (B1)_i / s_i` (Collatz and Wielandt).
     pub fn backward_error(&self, scales: &[f64]) -> f64 {
-        let (n, pivots) = (self.symbolic.nrows(), self.pivots());
+        let (n, pivots) = (self.rows(), self.pivots());
         let mut columns = vec![1.0; n];
         let mut length = vec![1_usize; n];
         self.visit_lower(|i, j, v| {

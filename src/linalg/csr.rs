@@ -201,10 +201,54 @@ impl<S: Scalar> Csr<S> {
         }
     }
 
-    /// The sum `A + B` of two matrices of the same shape.
+    /// The sum `A + B` of two matrices of the same shape; an entry is stored where one of them stores it.
     pub fn add(&self, other: &Self) -> Self {
-        let triplets: Vec<_> = self.entries().chain(other.entries()).map(|(i, j, v)| (i, j, v.clone())).collect();
-        Csr::from_triplets(self.rows, self.columns, &triplets)
+        let stored = self.stored() + other.stored();
+        let (mut offsets, mut indices, mut values) = (vec![0], Vec::with_capacity(stored), Vec::with_capacity(stored));
+        for i in 0..self.rows {
+            let (mut left, mut right) = (self.row(i).peekable(), other.row(i).peekable());
+            loop {
+                let (j, value) = match (left.peek(), right.peek()) {
+                    (Some(&(j, a)), Some(&(k, b))) if j == k => {
+                        right.next();
+                        left.next();
+                        (j, a.clone() + b.clone())
+                    }
+                    (Some(&(j, a)), right) if right.is_none_or(|&(k, _)| j < k) => {
+                        left.next();
+                        (j, a.clone())
+                    }
+                    (_, Some(&(k, b))) => {
+                        right.next();
+                        (k, b.clone())
+                    }
+                    _ => break,
+                };
+                indices.push(j);
+                values.push(value);
+            }
+            offsets.push(indices.len());
+        }
+        Csr { rows: self.rows, columns: self.columns, offsets, indices, values }
+    }
+
+    /// The square matrix with row and column `order[k]` as number k.
+    ///
+    /// # Panics
+    /// If `order` is no permutation.
+    pub(super) fn permuted(&self, order: &[usize]) -> Self {
+        let mut place = vec![0; order.len()];
+        order.iter().enumerate().for_each(|(k, &i)| place[i] = k);
+        let length = |k: usize| self.row(order[k]).len();
+        Csr::from_rows(self.rows, self.columns, length, |k, indices, values| {
+            let (columns, entries) = self.row_slices(order[k]);
+            let mut row: Vec<usize> = (0..columns.len()).collect();
+            row.sort_unstable_by_key(|&q| place[columns[q]]);
+            for (at, q) in row.into_iter().enumerate() {
+                indices[at] = place[columns[q]];
+                values[at] = entries[q].clone();
+            }
+        })
     }
 
     /// The submatrix of the given rows and columns, renumbered in the order given.
@@ -297,6 +341,18 @@ mod tests {
         let (a, x) = (sample(), [1.0, -2.0, 0.25, 3.0]);
         let dense: Vec<f64> = (0..3).map(|i| (0..4).map(|j| a.at(i, j) * x[j]).sum()).collect();
         assert_eq!(a.mul(&x), dense);
+    }
+
+    #[test]
+    fn a_sum_stores_what_either_stores_and_a_permutation_moves_rows_and_columns_together() {
+        let (a, b) = (
+            Csr::from_triplets(2, 2, &[(0, 0, 1.0), (0, 1, 2.0)]),
+            Csr::from_triplets(2, 2, &[(0, 1, 3.0), (1, 0, 4.0)]),
+        );
+        assert_eq!(a.add(&b), Csr::from_triplets(2, 2, &[(0, 0, 1.0), (0, 1, 5.0), (1, 0, 4.0)]));
+        let order = [2, 0, 1];
+        let square = sample().submatrix(&order, &order);
+        assert_eq!(sample().submatrix(&[0, 1, 2], &[0, 1, 2]).permuted(&order), square);
     }
 
     #[test]

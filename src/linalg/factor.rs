@@ -3,14 +3,16 @@
 //! Everything runs sequentially inside one matrix (`Par::Seq`): the program is parallel over cases, and sums are then
 //! formed in the same order for any number of threads.
 
+use std::sync::Arc;
+
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::solvers::{Solve, SolveCore};
 use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LdltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
-    factorize_symbolic_cholesky, supernodal,
+    factorize_symbolic_cholesky,
 };
-use faer::sparse::{SparseColMat, Triplet};
+use faer::sparse::{SparseColMat, SparseColMatRef, SymbolicSparseColMatRef, Triplet};
 use faer::{Conj, Mat, MatMut, Par, Side};
 
 use super::Csr;
@@ -72,14 +74,86 @@ fn columns(a: &Csr) -> Result<SparseColMat<usize, f64>, FactorError> {
     SparseColMat::try_new_from_triplets(a.rows(), a.columns(), &triplets).map_err(|_| FactorError::Unfinished)
 }
 
+/// What elimination does to a pattern, whatever the values: computed once for many matrices of one pattern.
+#[derive(Clone)]
+pub(super) struct Elimination(Arc<SymbolicCholesky<usize>>);
+
+impl Elimination {
+    /// In an order of approximate minimum degree.
+    fn by_degree(a: &Csr) -> Result<Self, FactorError> {
+        let threshold = match a.rows() > SUPERNODAL_FROM {
+            true => SupernodalThreshold::FORCE_SUPERNODAL,
+            false => SupernodalThreshold::AUTO,
+        };
+        Self::new(a, SymmetricOrdering::Amd, threshold)
+    }
+
+    /// Row after row, in dense blocks.
+    pub(super) fn row_by_row(a: &Csr) -> Result<Self, FactorError> {
+        Self::new(a, SymmetricOrdering::Identity, SupernodalThreshold::FORCE_SUPERNODAL)
+    }
+
+    fn new(a: &Csr, order: SymmetricOrdering<'_, usize>, threshold: SupernodalThreshold) -> Result<Self, FactorError> {
+        let parameters = CholeskySymbolicParams { supernodal_flop_ratio_threshold: threshold, ..Default::default() };
+        let symbolic = factorize_symbolic_cholesky(transpose(a)?.symbolic(), Side::Upper, order, parameters);
+        Ok(Elimination(Arc::new(symbolic.map_err(|_| FactorError::Unfinished)?)))
+    }
+
+    /// Factorises a matrix of this pattern.
+    pub(super) fn factor(&self, a: &Csr) -> Result<Ldlt, FactorError> {
+        let symbolic = &self.0;
+        let mut values = vec![0.0; symbolic.len_val()];
+        let scratch = symbolic.factorize_numeric_ldlt_scratch::<f64>(Par::Seq, Default::default());
+        symbolic
+            .factorize_numeric_ldlt(
+                &mut values,
+                transpose(a)?,
+                Side::Upper,
+                Default::default(),
+                Par::Seq,
+                MemStack::new(&mut MemBuffer::new(scratch)),
+                Default::default(),
+            )
+            .map_err(|_| FactorError::Singular)?;
+        Ok(Ldlt { symbolic: Arc::clone(symbolic), values })
+    }
+}
+
+/// The transpose as columns, without a copy: its upper triangle is the lower one of `a`.
+fn transpose(a: &Csr) -> Result<SparseColMatRef<'_, usize, f64>, FactorError> {
+    check(a)?;
+    let pattern = SymbolicSparseColMatRef::new_checked(a.columns(), a.rows(), a.offsets(), None, a.indices());
+    Ok(SparseColMatRef::new(pattern, a.values()))
+}
+
 /// A factorisation `P A Pᵀ = L D Lᵀ` of a symmetric matrix, without pivoting; the lower triangle of A is read.
 ///
 /// # Guarantees
 /// The signs of D are the inertia of a matrix close to A. # Exception: a pivot tiny against the others makes the count
 /// worthless; shift the matrix away from its eigenvalues first.
 pub struct Ldlt {
-    pub(super) symbolic: SymbolicCholesky<usize>,
-    pub(super) values: Vec<f64>,
+    symbolic: Arc<SymbolicCholesky<usize>>,
+    values: Vec<f64>,
+}
+
+/// Neighbouring columns of L that have their entries below themselves in the same rows.
+pub(super) struct Node<'a> {
+    /// The first column.
+    pub(super) first: usize,
+    /// How many columns.
+    pub(super) width: usize,
+    /// The rows below the columns' own, ascending.
+    pub(super) below: &'a [usize],
+    /// Column by column `width + below.len()` values: D on the diagonal, L under it, what is above without meaning.
+    pub(super) values: &'a [f64],
+}
+
+impl<'a> Node<'a> {
+    /// The values of a column, from the node's first row on.
+    pub(super) fn column(&self, j: usize) -> &'a [f64] {
+        let height = self.width + self.below.len();
+        &self.values[j * height..(j + 1) * height]
+    }
 }
 
 impl Ldlt {
@@ -88,47 +162,38 @@ impl Ldlt {
     /// # Errors
     /// A matrix that is not square or not finite, or a pivot that is exactly zero.
     pub fn new(a: &Csr) -> Result<Self, FactorError> {
-        let a = columns(a)?;
-        let parameters = CholeskySymbolicParams {
-            supernodal_flop_ratio_threshold: if a.nrows() > SUPERNODAL_FROM {
-                SupernodalThreshold::FORCE_SUPERNODAL
-            } else {
-                SupernodalThreshold::AUTO
-            },
-            ..Default::default()
+        Elimination::by_degree(a)?.factor(a)
+    }
+
+    /// The number of rows.
+    pub(super) fn rows(&self) -> usize {
+        self.symbolic.nrows()
+    }
+
+    /// The columns of L, node by node.
+    pub(super) fn nodes(&self) -> impl DoubleEndedIterator<Item = Node<'_>> {
+        let count = match self.symbolic.raw() {
+            SymbolicCholeskyRaw::Simplicial(s) => s.ncols(),
+            SymbolicCholeskyRaw::Supernodal(s) => s.n_supernodes(),
         };
-        let symbolic = factorize_symbolic_cholesky(a.symbolic(), Side::Lower, SymmetricOrdering::Amd, parameters)
-            .map_err(|_| FactorError::Unfinished)?;
-        let mut values = vec![0.0; symbolic.len_val()];
-        let scratch = symbolic.factorize_numeric_ldlt_scratch::<f64>(Par::Seq, Default::default());
-        symbolic
-            .factorize_numeric_ldlt(
-                &mut values,
-                a.as_ref(),
-                Side::Lower,
-                Default::default(),
-                Par::Seq,
-                MemStack::new(&mut MemBuffer::new(scratch)),
-                Default::default(),
-            )
-            .map_err(|_| FactorError::Singular)?;
-        Ok(Ldlt { symbolic, values })
+        (0..count).map(|k| match self.symbolic.raw() {
+            SymbolicCholeskyRaw::Simplicial(s) => {
+                let range = s.col_ptr()[k]..s.col_ptr()[k + 1];
+                let below = &s.row_idx()[range.clone()][1..];
+                Node { first: k, width: 1, below, values: &self.values[range] }
+            }
+            SymbolicCholeskyRaw::Supernodal(s) => {
+                let (first, end) = (s.supernode_begin()[k], s.supernode_end()[k]);
+                let below = &s.row_idx()[s.col_ptr_for_row_idx()[k]..s.col_ptr_for_row_idx()[k + 1]];
+                let (width, start) = (end - first, s.col_ptr_for_val()[k]);
+                Node { first, width, below, values: &self.values[start..start + width * (width + below.len())] }
+            }
+        })
     }
 
     /// The diagonal of D in the order of elimination.
     pub fn pivots(&self) -> Vec<f64> {
-        match self.symbolic.raw() {
-            SymbolicCholeskyRaw::Simplicial(s) => (0..s.ncols()).map(|j| self.values[s.col_ptr()[j]]).collect(),
-            SymbolicCholeskyRaw::Supernodal(s) => {
-                let factor = supernodal::SupernodalLdltRef::new(s, &self.values);
-                (0..s.n_supernodes())
-                    .flat_map(|k| {
-                        let block = factor.supernode(k).val();
-                        (0..block.ncols()).map(move |j| block[(j, j)])
-                    })
-                    .collect()
-            }
-        }
+        self.nodes().flat_map(|node| (0..node.width).map(move |j| node.column(j)[j])).collect()
     }
 
     /// The order of elimination: position k eliminates row `order[k]`.
@@ -150,16 +215,6 @@ impl Ldlt {
             }
         }
         count
-    }
-
-    /// Solves `A X = B` in place, the columns split over two threads.
-    pub(super) fn solve_block(&self, x: MatMut<'_, f64>) {
-        if x.ncols() < 2 {
-            return self.solve_columns(x);
-        }
-        let half = x.ncols() / 2;
-        let (left, right) = x.split_at_col_mut(half);
-        rayon::join(|| self.solve_columns(left), || self.solve_columns(right));
     }
 
     fn solve_columns(&self, x: MatMut<'_, f64>) {
@@ -184,7 +239,7 @@ impl Ldlt {
 }
 
 /// A sparse LU factorisation with partial pivoting, for matrices that are not symmetric.
-pub struct Lu(faer::sparse::linalg::solvers::Lu<usize, f64>);
+pub struct Lu(Box<faer::sparse::linalg::solvers::Lu<usize, f64>>);
 
 impl Lu {
     /// Factorises.
@@ -193,7 +248,7 @@ impl Lu {
     /// A matrix that is not square or not finite, or structurally or numerically singular.
     pub fn new(a: &Csr) -> Result<Self, FactorError> {
         let lu = columns(a)?.as_ref().sp_lu().map_err(|_| FactorError::Singular)?;
-        Ok(Lu(lu))
+        Ok(Lu(Box::new(lu)))
     }
 
     /// Solves `A X = B`, the columns of B given and replaced.

@@ -6,12 +6,14 @@
 pub mod backward;
 pub mod certified;
 pub mod csr;
+mod dissection;
 pub mod exact;
 pub mod factor;
 pub mod full;
 mod influence;
 mod lanczos;
 pub mod mirror;
+mod panel;
 pub(crate) mod parallel;
 pub mod pencil;
 pub mod polynomial;
