@@ -82,7 +82,8 @@ struct Polls {
     tail: Every,
     /// Largest values seen: ε, ρ/max|λ|, the relative defects of Parseval, of the function and of the energy.
     worst: [f64; 5],
-    tails: Vec<Series>,
+    /// The name of a mesh, and the tails of functions on it.
+    tails: Vec<(String, Series)>,
 }
 
 impl Polls {
@@ -117,11 +118,10 @@ impl Polls {
             relative(&(c.weighted.clone() - c.energy.clone()), &scale),
         ];
         seen.iter().zip(&mut self.worst[2..]).for_each(|(x, worst)| *worst = worst.max(*x));
-        if self.tails.len() < 4
-            && (function == "a coordinate" || function == "random signs")
-            && modes.name.starts_with("icosphere")
-        {
-            self.tails.extend(tails(modes, c, function));
+        // Of the last planar mesh: the largest one.
+        if modes.name.starts_with("random-delaunay") && ["a coordinate", "random signs"].contains(&function) {
+            self.tails.retain(|(name, _)| *name == modes.name);
+            self.tails.extend(tails(modes, c, function).map(|series| (modes.name.clone(), series)));
         }
     }
 
@@ -135,7 +135,7 @@ impl Polls {
         };
         let mut tail = self.tail.answer(
             "tail-below-energy",
-            "Is Σ_(j ≥ k) c_j² ≤ uᵀLu/λ_k for every k with λ_k > 0, up to the bound β of the rounding?",
+            "Is Σ_(j ≥ k) c_j² ≤ (uᵀLu + β + Σ_(λ_j < 0) |λ_j| c_j²)/λ_k for every k with λ_k > 0?",
             functions,
         );
         if !self.tails.is_empty() {
@@ -144,7 +144,7 @@ impl Polls {
                     .into(),
                 x: Axis::logarithmic("λ_k"),
                 y: Axis::logarithmic("Σ_(j ≥ k) c_j² / ‖u‖²"),
-                series: self.tails,
+                series: self.tails.into_iter().map(|(_, series)| series).collect(),
             }));
         }
         vec![
