@@ -36,7 +36,7 @@ fn run(setting: &Setting) -> Vec<Finding> {
         (Every::default(), Every::default(), Every::default(), Every::default(), Every::default());
     for torus in tori(setting.pick(1, 3), &mut stream) {
         let n = torus.dimension();
-        (0..=n).for_each(|k| star.ask(not_the_star(&torus, k)));
+        (0..=n).for_each(|k| star.ask(not_the_star(&torus, k, stars(&torus, k))));
         for xi in frequencies(n, setting.pick(1, 2) as i64) {
             for k in 0..=n {
                 let Some(stage) = torus.stage(&xi, k) else { continue };
@@ -46,7 +46,7 @@ fn run(setting: &Setting) -> Vec<Finding> {
                     adjoint.ask(not_the_adjoint(stage.before_adjoint(), &others, &stage.name));
                 }
             }
-            functions.ask(more_than_the_second_half(&torus, &xi));
+            functions.ask(more_than_the_second_half(&torus, &xi, &torus.squared_length(&xi)));
         }
     }
     for case in 0..setting.pick(6, 18) {
@@ -92,9 +92,14 @@ fn told(violated: bool, text: impl FnOnce() -> String) -> Option<Case> {
     violated.then(|| Case::told(text()))
 }
 
+/// The stars of an orthonormal coframe on k-forms and on (n − k)-forms.
+fn stars(torus: &Torus, k: usize) -> Option<(Dense<Rational>, Dense<Rational>)> {
+    torus.star_of_coframe(k).zip(torus.star_of_coframe(torus.dimension() - k))
+}
+
 /// On the basis forms: `a ∧ ⋆b`, a multiple of dx, against `⟨a, b⟩ √g`, for the star of the coframe; and the star twice.
-fn not_the_star(torus: &Torus, k: usize) -> Option<Case> {
-    let (n, stars) = (torus.dimension(), torus.star_of_coframe(k).zip(torus.star_of_coframe(torus.dimension() - k)));
+fn not_the_star(torus: &Torus, k: usize, stars: Option<(Dense<Rational>, Dense<Rational>)>) -> Option<Case> {
+    let n = torus.dimension();
     let text = format!("degree {k} on {}", torus.name);
     // Where no coframe is rational, the star over √g has the square det G with its partner.
     let Some((star, back)) = stars else { return torus.star_is_no_square_root(k).then(|| Case::told(text)) };
@@ -137,12 +142,11 @@ fn not_the_length(laplacian: &Dense<Rational>, length: &Rational, name: &str) ->
 }
 
 /// On functions the first half, dd*, has no degree to go through, and the second is `(ξ∧)* ξ∧ = Σ g^ij ξ_i ξ_j`.
-fn more_than_the_second_half(torus: &Torus, xi: &[i64]) -> Option<Case> {
+fn more_than_the_second_half(torus: &Torus, xi: &[i64], length: &Rational) -> Option<Case> {
     let (stage, above) = (torus.stage(xi, 0)?, torus.stage(xi, 1)?);
     let second = above.before_adjoint().product(&wedge(xi, 0));
     let first_is_empty = stage.before_adjoint().rows() == 0;
-    let whole_thing = stage.laplacian();
-    let same = second == whole_thing && is_multiple_of_identity(&second, &torus.squared_length(xi));
+    let same = second == stage.laplacian() && is_multiple_of_identity(&second, length);
     told(!same || !first_is_empty, || stage.name.clone())
 }
 
@@ -188,6 +192,26 @@ mod tests {
             let other = Torus::new(Dense::from_fn(2, 2, |i, j| whole(i64::from(i == j)))).unwrap();
             assert!(not_the_adjoint(&adjoint, &others(&other, &xi, k), "").is_some());
         }
+    }
+
+    #[test]
+    fn a_star_of_another_sign_size_or_metric_is_not_the_star() {
+        let (torus, unit) = (skew(), Torus::of_coframe(Dense::from_fn(2, 2, |i, j| whole(i64::from(i == j)))).unwrap());
+        for k in 0..=2 {
+            assert!(not_the_star(&torus, k, stars(&torus, k)).is_none());
+            assert!(not_the_star(&torus, k, stars(&unit, k)).is_some(), "{k}");
+            for factor in [-1, 2] {
+                let wrong = stars(&torus, k).map(|(star, back)| (scaled(&star, factor), back));
+                assert!(not_the_star(&torus, k, wrong).is_some(), "{k}, the star itself");
+                let wrong = stars(&torus, k).map(|(star, back)| (star, scaled(&back, factor)));
+                assert!(not_the_star(&torus, k, wrong).is_some(), "{k}, the star twice");
+            }
+        }
+        // The lattice A₂ has √g = √3 and is asked without a coframe.
+        let lattice = Torus::new(Dense::from_fn(2, 2, |i, j| whole([[2, -1], [-1, 2]][i][j]))).unwrap();
+        assert!((0..=2).all(|k| not_the_star(&lattice, k, None).is_none()));
+        assert!(more_than_the_second_half(&lattice, &[1, 1], &whole(2)).is_none(), "(2 + 2 + 2·1)/3");
+        assert!(more_than_the_second_half(&lattice, &[1, 1], &whole(1)).is_some());
     }
 
     #[test]
