@@ -216,7 +216,7 @@ fn no_basis(a: &Dense<Rational>, name: &str) -> Option<Case> {
 
 /// Whether A has a basis of eigenvectors over the complex numbers: the part s of its characteristic polynomial that has each root once
 /// has `s(A) = 0`.
-fn has_basis(a: &Dense<Rational>) -> bool {
+pub(super) fn has_basis(a: &Dense<Rational>) -> bool {
     let value = polynomial::Polynomial::characteristic(a).without_multiplicities().at_matrix(a);
     let n = a.rows();
     (0..n * n).all(|k| value.at(k / n, k % n).cmp_zero() == Ordering::Equal)

@@ -13,6 +13,11 @@ catalogue! {
     /// Every experiment, in the order of the claims.
     Experiment:
     smooth_functions,
+    codifferential,
+    harmonic_forms,
+    hodge_decomposition,
+    fourier_expansion,
+    eigenvector_expansion,
     kernels_and_minmax,
     metric_from_cotangents,
     graph_form,

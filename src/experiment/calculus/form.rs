@@ -28,6 +28,11 @@ pub fn wedge_sign(k: usize, mask: u32) -> Option<i64> {
 }
 
 impl Form {
+    /// The form with these coefficients of sets of differentials.
+    pub fn new(dimension: usize, degree: usize, parts: impl IntoIterator<Item = (u32, Polynomial)>) -> Self {
+        Form { dimension, degree, parts: parts.into_iter().collect() }
+    }
+
     /// Random coefficients up to a degree of polynomials.
     pub fn random(dimension: usize, degree: usize, polynomials: u32, stream: &mut Stream) -> Self {
         let parts = masks(dimension, degree).into_iter();
@@ -54,6 +59,17 @@ impl Form {
     /// Whether every coefficient is 0.
     pub fn is_zero(&self) -> bool {
         self.parts.values().all(Polynomial::is_zero)
+    }
+
+    /// The number of variables.
+    pub fn dimension(&self) -> usize {
+        self.dimension
+    }
+
+    /// The sum of two forms of one degree.
+    pub fn plus(&self, other: &Self) -> Self {
+        let sum = |mask: u32| (mask, &self.part(mask) + &other.part(mask));
+        Form::new(self.dimension, self.degree, masks(self.dimension, self.degree).into_iter().map(sum))
     }
 
     /// The number of differentials in each term.
@@ -95,6 +111,23 @@ impl Form {
             p.composed(&place).over_simplex() * determinant(&minor)
         });
         crate::scalar::sum(terms).reduced()
+    }
+}
+
+impl std::fmt::Display for Form {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let name = |mask: u32| {
+            let axes = (0..self.dimension).filter(|a| mask >> a & 1 == 1);
+            axes.map(|a| ["dx", "dy", "dz"].get(a).map_or_else(|| format!("dx{a}"), |n| (*n).to_string()))
+                .collect::<Vec<_>>()
+                .join("∧")
+        };
+        let terms = self.parts.iter().filter(|(_, p)| !p.is_zero()).map(|(&mask, p)| match mask {
+            0 => p.to_string(),
+            _ => format!("({p}) {}", name(mask)),
+        });
+        let terms: Vec<String> = terms.collect();
+        f.write_str(&if terms.is_empty() { "0".to_string() } else { terms.join(" + ") })
     }
 }
 

@@ -4,9 +4,11 @@
 
 mod form;
 mod integral;
+mod metric;
 mod polynomial;
 
-pub use form::{Form, random_simplex};
+pub use form::{Form, determinant, masks, random_simplex, wedge_sign};
+pub use metric::{Metric, complement_sign};
 pub use polynomial::{Polynomial, divergence};
 
 use crate::generate::Stream;
@@ -25,4 +27,13 @@ pub fn whole(x: i64) -> Rational {
 /// A random multiple of 1/6 between −3 and 3.
 pub fn drawn(stream: &mut Stream) -> Rational {
     ratio(stream.below(37) as i64 - 18, 6)
+}
+
+/// A random polynomial that vanishes on the boundary of the unit cube.
+pub fn vanishing(n: usize, stream: &mut Stream) -> Polynomial {
+    let one = Polynomial::constant(n, Rational::ONE);
+    (0..n).fold(Polynomial::random(n, 2, stream), |p, k| {
+        let x = Polynomial::variable(n, k);
+        &p * &(&x * &(&one - &x))
+    })
 }
