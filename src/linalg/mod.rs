@@ -22,6 +22,7 @@ pub mod rational;
 pub mod regular;
 pub mod simplex;
 pub mod spectrum;
+mod substitution;
 
 pub use csr::Csr;
 pub use exact::Dense;

@@ -2,16 +2,13 @@
 //!
 //! A row of a panel is a cache line, so an entry of a sparse matrix or of a factor that is fetched once serves eight vectors, from
 //! one line of memory each. What is done with it is written out over the eight and compiled for the instructions that
-//! the machine has (`pulp`; loops are `for` loops, for a closure of an iterator is compiled by itself, without them); every number is formed by the same sums in the same order on any machine and any number of threads.
-//!
-//! # Cost
-//! With 163,842 rows a substitution takes half the time of the one in `faer` with eight columns at a time.
+//! the machine has (`pulp`; loops are `for` loops, for a closure of an iterator is compiled by itself, without them); every number
+//! is formed by the same sums in the same order on any machine and any number of threads.
 
 use pulp::{Arch, NullaryFnOnce};
 use rayon::prelude::*;
 
 use super::Csr;
-use super::factor::{Ldlt, Node};
 use super::parallel::{self, BLOCK};
 
 /// Vectors in a panel.
@@ -29,12 +26,9 @@ pub(super) type Square = [Row; WIDTH];
 /// Rows that stay in the first cache while all panels go over them.
 const CHUNK: usize = 128;
 
-/// Columns of L that are taken together.
-const TILE: usize = 4;
-
 /// `x −= l y`, entry by entry.
 #[inline(always)]
-fn subtract_multiple<const W: usize>(x: &mut Row<W>, l: f64, y: &Row<W>) {
+pub(super) fn subtract_multiple<const W: usize>(x: &mut Row<W>, l: f64, y: &Row<W>) {
     for k in 0..W {
         x[k] -= l * y[k];
     }
@@ -191,143 +185,9 @@ impl NullaryFnOnce for Combine<'_, '_> {
     }
 }
 
-impl Ldlt {
-    /// Solves `L D Lᵀ X = B` in place, in the numbering of the elimination; on two threads each takes half the columns.
-    pub(super) fn substitute(&self, x: &mut [Row]) {
-        if rayon::current_num_threads() < 2 || x.len() <= BLOCK {
-            return Arch::new().dispatch(Substitute { factor: self, x });
-        }
-        let half = |from: usize| x.iter().map(|row| std::array::from_fn(|k| row[from + k])).collect();
-        let (mut left, mut right): (Vec<Row<4>>, Vec<Row<4>>) = (half(0), half(4));
-        rayon::join(
-            || Arch::new().dispatch(Substitute { factor: self, x: &mut left }),
-            || Arch::new().dispatch(Substitute { factor: self, x: &mut right }),
-        );
-        for (row, (l, r)) in x.iter_mut().zip(left.iter().zip(&right)) {
-            row[..4].copy_from_slice(l);
-            row[4..].copy_from_slice(r);
-        }
-    }
-}
-
-struct Substitute<'a, const W: usize> {
-    factor: &'a Ldlt,
-    x: &'a mut [Row<W>],
-}
-
-impl<const W: usize> NullaryFnOnce for Substitute<'_, W> {
-    type Output = ();
-
-    #[inline(always)]
-    fn call(self) {
-        for node in self.factor.nodes() {
-            forward(&node, self.x);
-        }
-        for node in self.factor.nodes().rev() {
-            backward(&node, self.x);
-        }
-    }
-}
-
-/// `X −= L X` for the columns of a node: from its own rows into those below.
-#[inline(always)]
-fn forward<const W: usize>(node: &Node<'_>, x: &mut [Row<W>]) {
-    let mut j = 0;
-    while j + TILE <= node.width {
-        let next = node.first + j + TILE;
-        let (head, tail) = x.split_at_mut(next);
-        let own = &mut head[node.first + j..];
-        let columns: [&[f64]; TILE] = std::array::from_fn(|q| &node.column(j + q)[j..]);
-        for q in 0..TILE {
-            let y = own[q];
-            for r in q + 1..TILE {
-                subtract_multiple(&mut own[r], columns[q][r], &y);
-            }
-        }
-        let y: [Row<W>; TILE] = std::array::from_fn(|q| own[q]);
-        let rest: [&[f64]; TILE] = std::array::from_fn(|q| &columns[q][TILE..]);
-        let within = node.width - j - TILE;
-        let here: [&[f64]; TILE] = std::array::from_fn(|q| &rest[q][..within]);
-        for (i, z) in tail[..within].iter_mut().enumerate() {
-            for q in 0..TILE {
-                subtract_multiple(z, here[q][i], &y[q]);
-            }
-        }
-        let there: [&[f64]; TILE] = std::array::from_fn(|q| &rest[q][within..][..node.below.len()]);
-        for (i, &row) in node.below.iter().enumerate() {
-            let z = &mut tail[row - next];
-            for q in 0..TILE {
-                subtract_multiple(z, there[q][i], &y[q]);
-            }
-        }
-        j += TILE;
-    }
-    for j in j..node.width {
-        let next = node.first + j + 1;
-        let (head, tail) = x.split_at_mut(next);
-        let y = head[next - 1];
-        let (own, below) = node.column(j).split_at(node.width);
-        for (&l, z) in own[j + 1..].iter().zip(tail.iter_mut()) {
-            subtract_multiple(z, l, &y);
-        }
-        for (&row, &l) in node.below.iter().zip(below) {
-            subtract_multiple(&mut tail[row - next], l, &y);
-        }
-    }
-}
-
-/// `X = D⁻¹ X − Lᵀ X` for the columns of a node: into its own rows from those below.
-#[inline(always)]
-fn backward<const W: usize>(node: &Node<'_>, x: &mut [Row<W>]) {
-    let tiled = node.width / TILE * TILE;
-    for j in (tiled..node.width).rev() {
-        let next = node.first + j + 1;
-        let (head, tail) = x.split_at_mut(next);
-        let (own, below) = node.column(j).split_at(node.width);
-        let mut sum: Row<W> = std::array::from_fn(|k| head[next - 1][k] / own[j]);
-        for (&l, z) in own[j + 1..].iter().zip(tail.iter()) {
-            subtract_multiple(&mut sum, l, z);
-        }
-        for (&row, &l) in node.below.iter().zip(below) {
-            subtract_multiple(&mut sum, l, &tail[row - next]);
-        }
-        head[next - 1] = sum;
-    }
-    for j in (0..tiled).step_by(TILE).rev() {
-        let next = node.first + j + TILE;
-        let (head, tail) = x.split_at_mut(next);
-        let own = &mut head[node.first + j..];
-        let columns: [&[f64]; TILE] = std::array::from_fn(|q| &node.column(j + q)[j..]);
-        let mut sums: [Row<W>; TILE] = std::array::from_fn(|q| std::array::from_fn(|k| own[q][k] / columns[q][q]));
-        let rest: [&[f64]; TILE] = std::array::from_fn(|q| &columns[q][TILE..]);
-        let within = node.width - j - TILE;
-        let here: [&[f64]; TILE] = std::array::from_fn(|q| &rest[q][..within]);
-        for (i, z) in tail[..within].iter().enumerate() {
-            for q in 0..TILE {
-                subtract_multiple(&mut sums[q], here[q][i], z);
-            }
-        }
-        let there: [&[f64]; TILE] = std::array::from_fn(|q| &rest[q][within..][..node.below.len()]);
-        for (i, &row) in node.below.iter().enumerate() {
-            let z = &tail[row - next];
-            for q in 0..TILE {
-                subtract_multiple(&mut sums[q], there[q][i], z);
-            }
-        }
-        for q in (0..TILE).rev() {
-            for r in q + 1..TILE {
-                let y = sums[r];
-                subtract_multiple(&mut sums[q], columns[q][r], &y);
-            }
-        }
-        own.copy_from_slice(&sums);
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::linalg::factor::Elimination;
 
     fn number(i: usize, j: usize) -> f64 {
         ((i * 7919 + j * 104_729) % 1009) as f64 / 1009.0 - 0.5
@@ -335,39 +195,6 @@ mod tests {
 
     fn panel(n: usize, seed: usize) -> Panel {
         (0..n).map(|i| std::array::from_fn(|j| number(i + seed, j + 3 * seed))).collect()
-    }
-
-    /// A band of five diagonals with a few far entries, positive definite.
-    fn band(n: usize) -> Csr {
-        let mut t: Vec<_> = (0..n).map(|i| (i, i, 9.0)).collect();
-        for (i, j) in (0..n).flat_map(|i| [(i, i + 1), (i, i + 2), (i, (i * i + 40) % n)]) {
-            if i < j && j < n {
-                t.extend([(i, j, -number(i, j)), (j, i, -number(i, j))]);
-            }
-        }
-        Csr::from_triplets(n, n, &t)
-    }
-
-    #[test]
-    fn substitution_solves_the_system_whatever_the_width_of_the_nodes() {
-        // The last columns of a band with far entries are one wide node; 5000 rows are more than a block.
-        for n in [1, 2, 3, 7, 40, 200, 5000] {
-            let a = if n == 5000 { band(40).map(|_, _, v| *v) } else { band(n) };
-            let a = if n == 5000 {
-                let copies = (0..125)
-                    .flat_map(|k| a.entries().map(move |(i, j, v)| (40 * k + i, 40 * k + j, *v)).collect::<Vec<_>>());
-                Csr::from_triplets(n, n, &copies.collect::<Vec<_>>())
-            } else {
-                a
-            };
-            let factor = Elimination::row_by_row(&a).unwrap().factor(&a).unwrap();
-            let b = panel(n, 1);
-            let mut x = b.clone();
-            factor.substitute(&mut x);
-            for (found, wanted) in apply(&a, &x).iter().flatten().zip(b.iter().flatten()) {
-                assert!((found - wanted).abs() < 1e-13, "{n}: {found} is not {wanted}");
-            }
-        }
     }
 
     #[test]
@@ -410,15 +237,12 @@ mod tests {
     #[test]
     fn one_thread_and_three_give_the_same_bits() {
         let n = 3 * BLOCK;
-        let copies = (0..n / 64)
-            .flat_map(|k| band(64).entries().map(|(i, j, v)| (64 * k + i, 64 * k + j, *v)).collect::<Vec<_>>());
-        let a = Csr::from_triplets(n, n, &copies.collect::<Vec<_>>());
-        let factor = Elimination::row_by_row(&a).unwrap().factor(&a).unwrap();
+        let near = (0..n).flat_map(|i| [(i, i, 1.0), (i, (i + 1) % n, number(i, 1))]);
+        let a = Csr::from_triplets(n, n, &near.collect::<Vec<_>>());
         let run = |threads: usize| {
             rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(|| {
                 let mut space = vec![panel(n, 1), panel(n, 2)];
                 let mut w = apply(&a, &panel(n, 3));
-                factor.substitute(&mut w);
                 let squares = products(&space, &w);
                 subtract(&mut w, &space, &squares);
                 combine(&mut space, &[vec![squares[0]], vec![squares[1]]]);
