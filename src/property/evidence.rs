@@ -564,8 +564,8 @@ pub enum Statement {
         determinants: [Fraction; 2],
     },
     // ── about smooth forms, decided by what is written down and nothing else ───────────────────────────────────────
-    /// A witness against what harmonic forms are on closed manifolds, or strict extrema leave open: the form α with polynomial
-    /// coefficients is harmonic, `Δα = (dd* + d*d)α = 0` in orthonormal coordinates, and an exception.
+    /// A witness against what is said of harmonic forms, and true of them on closed manifolds only, or of strict extrema only: the
+    /// form α with polynomial coefficients is harmonic, `Δα = (dd* + d*d)α = 0` in orthonormal coordinates, and an exception.
     HarmonicForm {
         /// How many coordinates.
         dimension: usize,

@@ -21,6 +21,7 @@ pub(super) fn exception(form: &[Term], exception: &Exception) -> String {
             )
         }
         Exception::NoMinimum { value } => {
+            let value = value.to_string().replace('-', "−");
             format!(
                 "the function u = {written} is harmonic, Δu = 0, and {value} everywhere: every point is a minimum, and none a strict one"
             )
@@ -78,6 +79,8 @@ mod tests {
         assert_eq!(written(&[term("1", &[0, 0, 0, 10], &[3])]), "x3¹⁰ dx3");
         let derivative = vec![term("2", &[0, 0], &[0, 1])];
         let said = exception(&turning, &Exception::Closed { derivative });
+        let constant = exception(&[term("-2", &[0], &[])], &Exception::NoMinimum { value: Fraction::text("-2") });
+        assert!(constant.starts_with("the function u = −2 is harmonic, Δu = 0, and −2 everywhere: "), "{constant}");
         assert_eq!(said, "the 1-form α = −y dx + x dy is harmonic, Δα = 0, and not closed: dα = 2 dx∧dy");
     }
 }

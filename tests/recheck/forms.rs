@@ -4,6 +4,8 @@ use lapjury::property::evidence::{Exception, Fraction, Term};
 use lapjury::property::recheck::{Rechecked, Refusal, against, from_excerpt};
 use lapjury::property::{Evidence, Statement};
 
+use crate::triangulations::{numbers, others};
+
 fn term(coefficient: &str, exponents: &[u32], differentials: &[usize]) -> Term {
     let coefficient = Fraction::text(coefficient);
     Term { coefficient, exponents: exponents.to_vec(), differentials: differentials.to_vec() }
@@ -40,16 +42,44 @@ fn turning() -> [Term; 2] {
     [term("-1", &[0, 1], &[0]), term("1", &[1, 0], &[1])]
 }
 
-#[test]
-fn forms_of_every_degree_with_fractions_are_verified() {
-    assert_eq!(not_closed(2, &turning(), &[term("2", &[0, 0], &[0, 1])]), TRUE);
-    // x² − y² + 3/2 z: d in the order that somebody may have written it.
+/// True statements with several terms, several dimensions and fractions.
+fn statements() -> Vec<Statement> {
+    let of =
+        |dimension, form: &[Term], exception| Statement::HarmonicForm { dimension, form: form.to_vec(), exception };
+    // x² − y² + 3/2 z, its derivative in an order that somebody may have written it in.
     let saddle = [term("1", &[2, 0, 0], &[]), term("-1", &[0, 2, 0], &[]), term("3/2", &[0, 0, 1], &[])];
-    let gradient = [term("3/2", &[0, 0, 0], &[2]), term("-2", &[0, 1, 0], &[1]), term("2", &[1, 0, 0], &[0])];
-    assert_eq!(not_closed(3, &saddle, &gradient), TRUE);
-    // d*(x z dx∧dy) = −z dy, and Δ is componentwise.
-    assert_eq!(not_co_closed(3, &[term("1", &[1, 0, 1], &[0, 1])], &[term("-1", &[0, 0, 1], &[1])]), TRUE);
-    assert_eq!(minimum(3, &[term("-7/3", &[0, 0, 0], &[])], "-7/3"), TRUE);
+    let derivative = vec![term("3/2", &[0, 0, 0], &[2]), term("-2", &[0, 1, 0], &[1]), term("2", &[1, 0, 0], &[0])];
+    let rotation = vec![term("2", &[0, 0], &[0, 1])];
+    // d*(x z dx∧dy) = −z dy.
+    let screw = vec![term("-1", &[0, 0, 1], &[1])];
+    vec![
+        of(2, &turning(), Exception::Closed { derivative: rotation }),
+        of(3, &saddle, Exception::Closed { derivative }),
+        of(3, &[term("1", &[1, 0, 1], &[0, 1])], Exception::CoClosed { codifferential: screw }),
+        of(3, &[term("-7/3", &[0, 0, 0], &[])], Exception::NoMinimum { value: Fraction::text("-7/3") }),
+    ]
+}
+
+#[test]
+fn forms_of_every_degree_with_fractions_are_verified_and_none_of_their_numbers_can_be_changed() {
+    let mut tried = 0;
+    for statement in statements() {
+        let original = serde_json::to_value(Evidence::bare(statement)).unwrap();
+        let read = |value| serde_json::from_value::<Evidence>(value).ok();
+        assert_eq!(from_excerpt(&read(original.clone()).unwrap()), TRUE, "{original}");
+        let mut places = Vec::new();
+        numbers(&original, "", &mut places);
+        for place in places {
+            for other in others(original.pointer(&place).unwrap()) {
+                let mut value = original.clone();
+                *value.pointer_mut(&place).unwrap() = other.clone();
+                let Some(changed) = read(value).filter(|_| original.pointer(&place) != Some(&other)) else { continue };
+                tried += 1;
+                assert!(from_excerpt(&changed).is_err(), "{place} = {other} in {original}");
+            }
+        }
+    }
+    assert!(tried > 150, "{tried}");
 }
 
 #[test]
@@ -75,10 +105,10 @@ fn a_closed_form_and_a_co_closed_one_are_no_exceptions() {
 
 #[test]
 fn a_wrong_sign_and_a_missing_term_are_refused() {
-    refused_for(not_closed(2, &turning(), &[term("-2", &[0, 0], &[0, 1])]), "dα = -2");
-    refused_for(not_co_closed(1, &[term("1", &[1], &[0])], &[term("1", &[0], &[])]), "d*α = 1");
+    refused_for(not_closed(2, &turning(), &[term("-2", &[0, 0], &[0, 1])]), "dα = -2 dx0∧dx1; found: 2 dx0∧dx1");
+    refused_for(not_co_closed(1, &[term("1", &[1], &[0])], &[term("1", &[0], &[])]), "d*α = 1; found: -1");
     let saddle = [term("1", &[2, 0], &[]), term("-1", &[0, 2], &[])];
-    refused_for(not_closed(2, &saddle, &[term("2", &[1, 0], &[0])]), "dα = 2");
+    refused_for(not_closed(2, &saddle, &[term("2", &[1, 0], &[0])]), "dα = 2 x0 dx0; found: 2 x0 dx0 + -2 x1 dx1");
 }
 
 #[test]

@@ -50,7 +50,7 @@ fn evidence() -> &'static [Evidence] {
 }
 
 /// The paths of all numbers, those written as text included.
-fn numbers(value: &Value, at: &str, found: &mut Vec<String>) {
+pub fn numbers(value: &Value, at: &str, found: &mut Vec<String>) {
     match value {
         Value::Number(_) => found.push(at.into()),
         Value::String(text) if text.chars().all(|c| c.is_ascii_digit() || c == '/' || c == '-') => {
@@ -63,7 +63,7 @@ fn numbers(value: &Value, at: &str, found: &mut Vec<String>) {
 }
 
 /// Some other numbers in place of one.
-fn others(value: &Value) -> Vec<Value> {
+pub fn others(value: &Value) -> Vec<Value> {
     match value {
         Value::String(text) => {
             let (p, q) = text.split_once('/').unwrap_or((text, "1"));

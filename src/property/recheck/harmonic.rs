@@ -89,9 +89,18 @@ impl Form {
         total
     }
 
+    /// `2 x0 x1^3 dx0∧dx1 + …`.
     fn written(&self) -> String {
         let term = |((dx, exponents), c): (&(Vec<usize>, Vec<u32>), &Rational)| {
-            format!("{} x^{exponents:?} d{dx:?}", Fraction::from(c))
+            let power = |(k, e): (usize, &u32)| match e {
+                0 => String::new(),
+                1 => format!(" x{k}"),
+                e => format!(" x{k}^{e}"),
+            };
+            let powers: String = exponents.iter().enumerate().map(power).collect();
+            let differentials = dx.iter().map(|k| format!("dx{k}")).collect::<Vec<_>>().join("∧");
+            let space = if dx.is_empty() { "" } else { " " };
+            format!("{}{powers}{space}{differentials}", Fraction::from(c))
         };
         let terms: Vec<String> = self.0.iter().map(term).collect();
         if terms.is_empty() { "0".into() } else { terms.join(" + ") }
