@@ -187,7 +187,8 @@ fn every_witness_survives_an_independent_look() {
     let of_weights = ["equilibrium", "lift", "motion", "no-lift"];
     let of_triangulations = ["extension", "flips", "not-embedded", "not-minimal", "torus"];
     let of_spectra = ["cospectral", "delaunay-eigenvalue", "spectra-differ", "transplantation"];
-    let all = of_matrices.into_iter().chain(of_weights).chain(of_triangulations).chain(of_spectra);
+    let all =
+        of_matrices.into_iter().chain(of_weights).chain(of_triangulations).chain(of_spectra).chain(["harmonic-form"]);
     assert_eq!(kinds, all.collect());
 }
 
@@ -237,6 +238,7 @@ fn spoilt(evidence: &Evidence) -> Evidence {
     let mut spoilt = evidence.clone();
     triangulations::spoil(&mut spoilt);
     spectra::spoil(&mut spoilt);
+    forms::spoil(&mut spoilt);
     for row in &mut spoilt.excerpt.rows {
         match evidence.statement {
             Statement::Asymmetry { .. } | Statement::FarEntry { .. } => row.entries.retain(|e| e.0 == row.row),
@@ -360,10 +362,13 @@ fn look(evidence: &Evidence) -> Result<&'static str, String> {
         Statement::Cospectral { .. } | Statement::SpectraDiffer { .. } | Statement::DelaunayEigenvalue { .. } => {
             spectra::look(evidence)
         }
+        Statement::HarmonicForm { .. } => forms::look(evidence),
         _ => triangulations::look(evidence),
     }
 }
 
+#[path = "look/forms.rs"]
+mod forms;
 #[path = "look/spectra.rs"]
 mod spectra;
 #[path = "look/triangulations.rs"]

@@ -258,7 +258,7 @@ fn the_sample_has_every_kind_of_statement() {
     assert_eq!(found.len(), KINDS, "a kind of evidence is missing in the sample");
 }
 
-const KINDS: usize = 44;
+const KINDS: usize = 45;
 
 /// The match makes a new kind of statement an error here, so that it is given a sentence, a picture and a sample.
 fn kind(statement: &Statement) -> &'static str {
@@ -307,6 +307,7 @@ fn kind(statement: &Statement) -> &'static str {
         Statement::Transplantation { .. } => "Transplantation",
         Statement::SpectraDiffer { .. } => "SpectraDiffer",
         Statement::DelaunayEigenvalue { .. } => "DelaunayEigenvalue",
+        Statement::HarmonicForm { .. } => "HarmonicForm",
     }
 }
 

@@ -9,6 +9,8 @@ use super::calculus::{Form, Metric, Polynomial, divergence, drawn, random_simple
 use super::poll::{Case, Every};
 use super::{Experiment, Finding, Setting};
 use crate::generate::Stream;
+use crate::property::evidence::{Exception, Fraction};
+use crate::property::{Evidence, Statement};
 use crate::scalar::{Rational, Scalar};
 
 /// The catalogue entry.
@@ -179,13 +181,14 @@ fn written(point: &[Rational]) -> String {
     point.iter().map(|x| x.clone().reduced().to_string()).collect::<Vec<_>>().join(", ")
 }
 
-/// Every polynomial of the family that is harmonic, the constants first: an exception where it has a minimum at the origin.
+/// Every polynomial of the family that is harmonic, the constants first and of these 1: an exception where it has a minimum at the origin.
 /// A polynomial that is not constant falls in some direction, or is left as no exception only if one is found.
 fn no_minimum() -> Every {
     let exponents = [[0, 0], [1, 0], [0, 1], [2, 0], [1, 1], [0, 2]];
     let mut every = Every::default();
     for code in 0..3_usize.pow(6) {
-        let coefficient = |k: usize| whole([0, 1, -1][code / 3_usize.pow(k as u32) % 3]);
+        let coefficient =
+            |k: usize| whole(if k == 0 { [1, 0, -1] } else { [0, 1, -1] }[code / 3_usize.pow(k as u32) % 3]);
         let terms = exponents.iter().enumerate().map(|(k, e)| (e.to_vec(), coefficient(k)));
         let p = terms.fold(Polynomial::zero(2), |p, (e, c)| p.plus(e, c));
         if p.laplacian().is_zero() {
@@ -198,7 +201,13 @@ fn no_minimum() -> Every {
 fn minimum_at_the_origin(p: &Polynomial) -> Option<Case> {
     let origin = [Rational::ZERO, Rational::ZERO];
     match leading(p, &origin) {
-        None => Some(Case::told(format!("the constant {p}, which has a minimum, not strict, at every point"))),
+        None => {
+            let text = format!("the constant {p}, which has a minimum, not strict, at every point");
+            let exception = Exception::NoMinimum { value: Fraction::from(&p.constant_term()) };
+            let form = Form::new(p.variables(), 0, [(0, p.clone())]).terms();
+            let statement = Statement::HarmonicForm { dimension: p.variables(), form, exception };
+            Some(Case::shown(text, Evidence::bare(statement)))
+        }
         Some(_) => strict_extremum(p, &origin, Ordering::Less),
     }
 }
@@ -244,6 +253,7 @@ fn not_recovered(inverse: &[Vec<Polynomial>], laplacian: impl Fn(&Polynomial) ->
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::property::recheck;
 
     fn power(n: usize, k: usize) -> Polynomial {
         &Polynomial::variable(n, k) * &Polynomial::variable(n, k)
@@ -275,6 +285,13 @@ mod tests {
         assert!(not_the_mean(&bowl, &origin, &Rational::ONE, Polynomial::average_over_sphere).is_some());
         let saddle = &power(2, 0) - &power(2, 1);
         assert!(minimum_at_the_origin(&saddle).is_none() && minimum_at_the_origin(&bowl).is_some());
+        let found = no_minimum().answer("no-minimum", "", "polynomials");
+        assert!(
+            found.finding.starts_with("3 of ") && found.finding.contains("the first: the constant 1"),
+            "{}",
+            found.finding
+        );
+        assert_eq!(recheck::from_excerpt(&found.evidence[0]), Ok(recheck::Rechecked::Exact));
     }
 
     #[test]

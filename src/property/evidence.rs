@@ -5,9 +5,11 @@
 //! excerpt (that the excerpt was copied faithfully; a certificate that speaks of the whole matrix) is checked against the
 //! operator itself.
 
+mod forms;
 mod fraction;
 mod spectral;
 
+pub use forms::{Exception, Term};
 pub use fraction::Fraction;
 pub use spectral::{Condition, Mesh, Weighting};
 
@@ -560,6 +562,17 @@ pub enum Statement {
         below: [usize; 2],
         /// `det(L − σM)` on both, exactly.
         determinants: [Fraction; 2],
+    },
+    // ── about smooth forms, decided by what is written down and nothing else ───────────────────────────────────────
+    /// A witness against what is said of harmonic forms, and true of them on closed manifolds only, or of strict extrema only: the
+    /// form α with polynomial coefficients is harmonic, `Δα = (dd* + d*d)α = 0` in orthonormal coordinates, and an exception.
+    HarmonicForm {
+        /// How many coordinates.
+        dimension: usize,
+        /// α, all its terms; not zero, of one degree.
+        form: Vec<Term>,
+        /// To what.
+        exception: Exception,
     },
 }
 

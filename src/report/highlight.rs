@@ -105,7 +105,8 @@ impl Highlight {
             | Statement::Cospectral { .. }
             | Statement::Transplantation { .. }
             | Statement::SpectraDiffer { .. }
-            | Statement::DelaunayEigenvalue { .. } => none,
+            | Statement::DelaunayEigenvalue { .. }
+            | Statement::HarmonicForm { .. } => none,
             Statement::PositiveExtension { i, j, .. } => Highlight { bad: vec![[*i, *j]], ..none },
         }
     }

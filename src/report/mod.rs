@@ -10,6 +10,7 @@ pub mod csv;
 mod download;
 mod drawing;
 mod figure;
+mod forms;
 mod highlight;
 mod html;
 mod junit;

@@ -1,5 +1,6 @@
 //! A sentence for every kind of witness and certificate.
 
+use super::forms;
 use super::number::{count, degrees, number};
 use crate::record::evidence::{Corner, Fault, Fraction, Hypothesis, Row, SparseVector, Which};
 use crate::record::{Evidence, Excerpt, Outcome, Statement, Verdict};
@@ -279,6 +280,7 @@ pub fn statement(evidence: &Evidence) -> String {
             if *other == 1 { "lies" } else { "lie" },
             delaunay + 1
         ),
+        Statement::HarmonicForm { form, exception, .. } => forms::exception(form, exception),
     }
 }
 
@@ -302,7 +304,7 @@ fn terms(coefficients: &[Fraction]) -> String {
     said
 }
 
-fn superscript(power: usize) -> String {
+pub(super) fn superscript(power: usize) -> String {
     let digits = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     power.to_string().bytes().map(|b| digits[usize::from(b - b'0')]).collect()
 }

@@ -1,6 +1,7 @@
 //! Evidence, each kind with a true example made by hand, spoilt in several ways.
 
 mod certificates;
+mod forms;
 mod imports;
 mod mutation;
 mod operators;

@@ -1,4 +1,4 @@
-//! Statements about triangulations: true ones of every kind as the experiments find them, and what becomes of them when any
+//! Statements about triangulations, spectra and smooth forms: true ones of every kind as the experiments find them, and what becomes of them when any
 //! one number is changed.
 
 use std::collections::BTreeMap;
@@ -9,7 +9,7 @@ use lapjury::property::recheck::{Rechecked, from_excerpt, kind};
 use lapjury::property::{Evidence, Statement};
 use serde_json::Value;
 
-/// The evidence of the experiments that is about triangulations, all of it.
+/// The evidence of the experiments that is decided without an operator, all of it.
 fn evidence() -> &'static [Evidence] {
     static FOUND: OnceLock<Vec<Evidence>> = OnceLock::new();
     FOUND.get_or_init(|| {
@@ -23,6 +23,8 @@ fn evidence() -> &'static [Evidence] {
             "isospectral-graphs",
             "isospectral-drums",
             "spectral-rippa",
+            "smooth-functions",
+            "harmonic-forms",
         ];
         let setting = Setting { seed: 5, effort: Effort::Smoke };
         let found = experiments.iter().flat_map(|id| (find(id).unwrap().run)(&setting));
@@ -40,6 +42,7 @@ fn evidence() -> &'static [Evidence] {
                         | Statement::Transplantation { .. }
                         | Statement::SpectraDiffer { .. }
                         | Statement::DelaunayEigenvalue { .. }
+                        | Statement::HarmonicForm { .. }
                 )
             })
             .collect()
@@ -47,7 +50,7 @@ fn evidence() -> &'static [Evidence] {
 }
 
 /// The paths of all numbers, those written as text included.
-fn numbers(value: &Value, at: &str, found: &mut Vec<String>) {
+pub fn numbers(value: &Value, at: &str, found: &mut Vec<String>) {
     match value {
         Value::Number(_) => found.push(at.into()),
         Value::String(text) if text.chars().all(|c| c.is_ascii_digit() || c == '/' || c == '-') => {
@@ -60,7 +63,7 @@ fn numbers(value: &Value, at: &str, found: &mut Vec<String>) {
 }
 
 /// Some other numbers in place of one.
-fn others(value: &Value) -> Vec<Value> {
+pub fn others(value: &Value) -> Vec<Value> {
     match value {
         Value::String(text) => {
             let (p, q) = text.split_once('/').unwrap_or((text, "1"));
@@ -97,6 +100,7 @@ fn every_kind_is_verified_exactly_from_its_json_alone() {
         ("delaunay-eigenvalue", 4),
         ("delaunay-not-minimal", 2),
         ("flips-to-delaunay", 3),
+        ("harmonic-form", 3),
         ("not-embedded", 5),
         ("positive-extension", 1),
         ("spectra-differ", 1),

@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 
 use lapjury::domain::{Domain, Graph, Surface};
 use lapjury::figure::{Axis, Chart, Figure, Mark, Series, Sketch};
-use lapjury::property::evidence::{Condition, Corner, Fault, Flip, Fraction, Hypothesis, Mesh, Row, Weighting, Which};
+use lapjury::property::evidence::{
+    Condition, Corner, Exception, Fault, Flip, Fraction, Hypothesis, Mesh, Row, Term, Weighting, Which,
+};
 use lapjury::property::{Evidence, Excerpt, Level, Statement, Tally, Verdict};
 use lapjury::record::{
     AtlasFound, AtlasLine, Cell, ClaimLine, ClaimOutcome, DomainLine, Exhibit, Header, Line, OperatorLine, Recheck,
@@ -278,7 +280,7 @@ pub fn certificates() -> Vec<Statement> {
     ]
 }
 
-/// Every kind of statement about triangulations and drawings.
+/// Every kind of statement about triangulations, drawings and smooth forms.
 pub fn triangulations() -> Vec<Statement> {
     let text = |x: &str| x.to_string();
     let at = |x: &str, y: &str| [text(x), text(y)];
@@ -337,7 +339,17 @@ pub fn triangulations() -> Vec<Statement> {
             below: [1, 2],
             determinants: ["-1/9", "1/9"].map(Fraction::text),
         },
+        Statement::HarmonicForm {
+            dimension: 2,
+            form: vec![term("-1", &[0, 1], &[0]), term("1", &[1, 0], &[1])],
+            exception: Exception::Closed { derivative: vec![term("2", &[0, 0], &[0, 1])] },
+        },
     ]
+}
+
+fn term(coefficient: &str, exponents: &[u32], differentials: &[usize]) -> Term {
+    let coefficient = Fraction::text(coefficient);
+    Term { coefficient, exponents: exponents.to_vec(), differentials: differentials.to_vec() }
 }
 
 /// A triangle.

@@ -6,6 +6,7 @@ use super::polynomial::{Polynomial, exponents};
 use super::{drawn, whole};
 use crate::generate::Stream;
 use crate::linalg::Dense;
+use crate::property::evidence::{Fraction, Term};
 use crate::scalar::{Rational, Scalar};
 
 /// A form of one degree: a polynomial for each set of differentials, a bit mask.
@@ -54,6 +55,20 @@ impl Form {
     /// The coefficient of a set of differentials.
     pub fn part(&self, mask: u32) -> Polynomial {
         self.parts.get(&mask).cloned().unwrap_or_else(|| Polynomial::zero(self.dimension))
+    }
+
+    /// Its terms as evidence writes them down.
+    pub fn terms(&self) -> Vec<Term> {
+        let of = |(&mask, p): (&u32, &Polynomial)| -> Vec<Term> {
+            let differentials: Vec<usize> = (0..self.dimension).filter(|k| mask >> k & 1 == 1).collect();
+            let term = |(e, c): (&[u32], &Rational)| Term {
+                coefficient: Fraction::from(c),
+                exponents: e.to_vec(),
+                differentials: differentials.clone(),
+            };
+            p.terms().map(term).collect()
+        };
+        self.parts.iter().flat_map(of).collect()
     }
 
     /// Whether every coefficient is 0.

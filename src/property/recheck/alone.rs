@@ -1,10 +1,10 @@
-//! Statements about triangulations and drawings: decided by the numbers written down with them, in whole numbers and
+//! Statements about triangulations, drawings and smooth forms: decided by the numbers written down with them, in whole numbers and
 //! fractions, with or without an operator at hand.
 
 use dashu_int::IBig;
 
 use super::{
-    Answer, Refusal, cospectral, drawing, eigenvalues, extension, flips, lattice, tetrahedra, transplantation,
+    Answer, Refusal, cospectral, drawing, eigenvalues, extension, flips, harmonic, lattice, tetrahedra, transplantation,
 };
 use crate::property::evidence::{Evidence, Fraction, Statement};
 use crate::scalar::{Rational, Scalar};
@@ -44,6 +44,7 @@ pub(super) fn decide(evidence: &Evidence) -> Option<Answer> {
             let stated = eigenvalues::Stated { sigma, below: *below, determinants };
             Some(eigenvalues::more_on_delaunay(excerpt, other, (*condition, *mass), &stated))
         }
+        Statement::HarmonicForm { dimension, form, exception } => Some(harmonic::decide(*dimension, form, exception)),
         _ => None,
     }
 }

@@ -34,6 +34,7 @@ mod equilibrium;
 mod excerpt;
 mod extension;
 mod flips;
+mod harmonic;
 mod lattice;
 mod leeway;
 mod mass;
@@ -161,7 +162,7 @@ type Answer = Result<Rechecked, Refusal>;
 
 /// Decides a witness on its excerpt alone: what a reader of the JSON can do without mesh and matrix.
 ///
-/// A statement about a triangulation carries all that decides it, witness or certificate. Any other certificate speaks of the
+/// A statement about a triangulation or a smooth form carries all that decides it, witness or certificate. Any other certificate speaks of the
 /// whole matrix and comes back [`Rechecked::Open`]; so does a witness whose rows were too many to write down.
 ///
 /// # Errors

@@ -101,6 +101,7 @@ fn describe(statement: &Statement) -> (&'static str, bool, &'static [&'static st
         Statement::Transplantation { .. } => ("transplantation", false, &[]),
         Statement::SpectraDiffer { .. } => ("spectra-differ", true, &[]),
         Statement::DelaunayEigenvalue { .. } => ("delaunay-eigenvalue", true, &[]),
+        Statement::HarmonicForm { .. } => ("harmonic-form", true, &[]),
     }
 }
 
