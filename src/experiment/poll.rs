@@ -30,9 +30,15 @@ pub struct Every {
     decided: usize,
     against: usize,
     first: Option<Case>,
+    open: Vec<String>,
 }
 
 impl Every {
+    /// Counts a case that decides nothing, and says why.
+    pub fn leave_open(&mut self, why: impl Into<String>) {
+        self.open.push(why.into());
+    }
+
     /// Counts a case; `violation` is what speaks against the statement there.
     pub fn ask(&mut self, violation: Option<Case>) {
         self.decided += 1;
@@ -50,7 +56,10 @@ impl Every {
             text = format!("{} of {} {cases} are exceptions; the first: {}", self.against, self.decided, first.text);
             evidence = first.evidence;
         }
-        finding(part, question, agrees, self.decided, text, evidence)
+        if let Some(first) = self.open.first() {
+            text += &format!("; {} left open, the first: {first}", self.open.len());
+        }
+        Finding { open: self.open.len(), ..finding(part, question, agrees, self.decided, text, evidence) }
     }
 }
 
@@ -108,6 +117,19 @@ mod tests {
         let answer = every.answer("p", "?", "cases");
         assert_eq!((answer.agrees, answer.decided), (false, 5));
         assert_eq!(answer.finding, "2 of 5 cases are exceptions; the first: case 3");
+    }
+
+    #[test]
+    fn what_is_left_open_is_counted_and_decides_nothing() {
+        let mut every = Every::default();
+        every.leave_open("too noisy");
+        assert!(!every.answer("p", "?", "cases").agrees);
+        let mut every = Every::default();
+        every.ask(None);
+        every.leave_open("too noisy");
+        let answer = every.answer("p", "?", "cases");
+        assert_eq!((answer.agrees, answer.decided, answer.open), (true, 1, 1));
+        assert_eq!(answer.finding, "1 cases: no exception; 1 left open, the first: too noisy");
     }
 
     #[test]

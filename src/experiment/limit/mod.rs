@@ -1,0 +1,11 @@
+//! What tends to what under refinement: sequences of meshes, smooth problems with known answers, and the order of an error.
+
+pub mod bessel;
+pub mod contest;
+pub mod order;
+pub mod place;
+pub mod poisson;
+pub mod residual;
+pub mod sequence;
+pub mod spectra;
+pub mod student;
