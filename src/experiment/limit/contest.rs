@@ -4,27 +4,104 @@ use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
+use super::mesh::Mesh;
+use super::modes::Sampled;
 use super::order::{Level, Trend, judge};
-use super::place::Boundary;
+use super::place::{Boundary, Place};
 use super::poisson::{self, Fit};
-use super::sequence::{Mesh, Sequence, Way};
+use super::sequence::Sequence;
 use super::spectra::gaps;
-use crate::laplacian;
+use crate::domain::DomainKind;
+use crate::laplacian::{self, CONVERGENCE, Laplacian, Promise, Promised, When};
 use crate::linalg::Csr;
 use crate::linalg::spectrum::SpectrumError;
 use crate::operator::Operator;
 
 /// An operator of the catalogue with its parameters.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone)]
 pub struct Contestant {
-    /// The id and the parameters, as on the command line.
-    pub name: &'static str,
-    /// The id.
-    pub id: &'static str,
-    /// The parameters.
-    pub given: &'static [(&'static str, &'static str)],
-    /// Whether the operator knows no lengths, so that solutions are compared up to the best factor.
+    /// The entry.
+    pub entry: &'static Laplacian,
+    /// The parameters that are not at their default.
+    pub given: BTreeMap<String, String>,
+    /// Whether solutions are compared up to the best factor: an operator that knows no lengths can hope for no more.
     pub scaled: bool,
+}
+
+impl Contestant {
+    /// The entry with its defaults; `None` without one of this id.
+    pub fn of(id: &str) -> Option<Self> {
+        Some(Contestant { entry: laplacian::find(id)?, given: BTreeMap::new(), scaled: false })
+    }
+
+    /// With a parameter set.
+    pub fn with(mut self, name: &str, value: &str) -> Self {
+        let default = self.entry.parameters.iter().any(|p| p.name == name && p.default == value);
+        if default {
+            self.given.remove(name);
+        } else {
+            self.given.insert(name.into(), value.into());
+        }
+        self
+    }
+
+    /// The id and the parameters, as on the command line.
+    pub fn name(&self) -> String {
+        let given: Vec<String> = self.given.iter().map(|(k, v)| format!("{k}={v}")).collect();
+        if given.is_empty() { self.entry.id.into() } else { format!("{}:{}", self.entry.id, given.join(",")) }
+    }
+
+    /// The name of the mass; empty where there is no choice.
+    pub fn mass(&self) -> &str {
+        let default = || self.entry.parameters.iter().find(|p| p.name == "mass").map_or("", |p| p.default);
+        self.given.get("mass").map_or_else(default, String::as_str)
+    }
+
+    /// Whether the operator is defined on the meshes of a place.
+    pub fn plays(&self, place: Place) -> bool {
+        let kind = if place == Place::Cube { DomainKind::Volume } else { DomainKind::Surface };
+        self.entry.accepts.contains(&kind)
+    }
+
+    /// The operator on a mesh.
+    ///
+    /// # Errors
+    /// A refusal, in words.
+    pub fn build(&self, mesh: &Mesh) -> Result<Operator, String> {
+        self.entry.build(&mesh.domain, &self.given).map_err(|e| e.to_string())
+    }
+}
+
+/// Every operator of the catalogue of which it promises that it converges, with every value of the parameters under which it does.
+pub fn promised() -> Vec<Contestant> {
+    contestants(Promised::Holds)
+}
+
+/// Every operator of the catalogue of which it says that it does not always converge, compared up to the best factor.
+pub fn denied() -> Vec<Contestant> {
+    contestants(Promised::FailsSomewhere).into_iter().map(|c| Contestant { scaled: true, ..c }).collect()
+}
+
+fn contestants(outcome: Promised) -> Vec<Contestant> {
+    let of = |entry: &'static Laplacian| {
+        let promises = entry.promises.iter().filter(move |p| p.property == CONVERGENCE && p.outcome == outcome);
+        promises.flat_map(move |promise| settings(entry, promise))
+    };
+    laplacian::ALL.iter().flat_map(|entry| of(entry)).collect()
+}
+
+/// The entry with every combination of the words, and of the ends of the intervals, under which something is promised.
+fn settings(entry: &'static Laplacian, promise: &Promise) -> Vec<Contestant> {
+    let mut found = vec![Contestant { entry, given: BTreeMap::new(), scaled: false }];
+    for when in promise.when {
+        let (name, values) = match *when {
+            When::Is(name, words) => (name, words.iter().map(|w| w.to_string()).collect::<Vec<_>>()),
+            When::Between(name, low, high) if low == high => (name, vec![low.to_string()]),
+            When::Between(name, low, high) => (name, vec![low.to_string(), high.to_string()]),
+        };
+        found = found.into_iter().flat_map(|c| values.iter().map(move |v| c.clone().with(name, v))).collect();
+    }
+    found
 }
 
 /// What is measured.
@@ -76,7 +153,7 @@ pub struct Row {
     /// Whether every spectrum was certified complete with rounding below a hundredth of its error; `None` without a spectrum.
     pub certified: Option<bool>,
     /// Why something is missing.
-    pub notes: Vec<String>,
+    pub note: Option<String>,
 }
 
 impl Row {
@@ -87,77 +164,119 @@ impl Row {
 
     /// The row in words.
     pub fn name(&self) -> String {
-        format!("{} on {}, {}", self.contestant.name, self.sequence.name(), self.boundary.name())
+        format!("{} on {}, {}", self.contestant.name(), self.sequence.name(), self.boundary.name())
     }
 }
 
 /// Which meshes are made.
 #[derive(Clone, Copy, Debug)]
 pub struct Plan {
-    /// The coarsest level.
-    pub first: usize,
-    /// The finest level of a structured sequence.
-    pub last: usize,
-    /// The finest level of a random one.
-    pub last_random: usize,
-    /// Draws of a random mesh at each level.
-    pub draws: usize,
-    /// The seed of the first.
+    /// The sizes n of surfaces, with the number of meshes where they are drawn.
+    pub sizes: &'static [(usize, usize)],
+    /// The sizes of volumes.
+    pub solid: &'static [(usize, usize)],
+    /// The seed.
     pub seed: u64,
 }
 
 impl Plan {
-    /// The meshes of a sequence, level by level.
+    /// The meshes of a sequence, size by size.
     ///
     /// # Errors
     /// What a generator refuses, in words.
-    pub fn meshes(&self, sequence: Sequence) -> Result<Vec<Mesh>, String> {
-        let draws = sequence.draws(self.draws);
-        let last = if sequence.way == Way::Structured { self.last } else { self.last_random };
-        let places: Vec<(usize, usize)> =
-            (self.first..=last).flat_map(|level| (0..draws).map(move |draw| (level, draw))).collect();
-        places.par_iter().map(|&(level, draw)| sequence.mesh(level, self.seed + draw as u64)).collect()
+    pub fn meshes(&self, sequence: Sequence) -> Result<Vec<Vec<Mesh>>, String> {
+        let draws = |count: usize| if sequence.is_random() { count } else { 1 };
+        let seed = |draw: usize| self.seed.wrapping_mul(1 << 10).wrapping_add(draw as u64);
+        let size = |&(n, count): &(usize, usize)| {
+            (0..draws(count)).into_par_iter().map(|draw| sequence.mesh(n, seed(draw))).collect()
+        };
+        let sizes = if sequence.place == Place::Cube { self.solid } else { self.sizes };
+        sizes.iter().map(size).collect()
     }
 }
 
-/// Every operator of a list on one sequence with each boundary condition, level by level; the meshes are made once.
+/// The errors of each mesh, by size.
+pub fn by_size<T>(meshes: &[Vec<Mesh>], found: &[T], error: impl Fn(&T) -> Option<f64>) -> Option<Vec<Level>> {
+    let mut rest = found;
+    let level = |meshes: &Vec<Mesh>| {
+        let (mine, others) = rest.split_at_checked(meshes.len())?;
+        rest = others;
+        let h = meshes.iter().map(|m| m.h).sum::<f64>() / meshes.len() as f64;
+        Some(Level { h, errors: mine.iter().map(&error).collect::<Option<_>>()? })
+    };
+    meshes.iter().map(level).collect()
+}
+
+/// Every operator of a list that is defined there on the meshes of one sequence with each boundary condition; `spectra` says whether spectra
+/// are compared, beside solutions.
 ///
 /// # Errors
-/// What a generator or a construction refuses, in words.
+/// What a construction refuses, in words.
 pub fn rows(
     contestants: &[Contestant],
     sequence: Sequence,
+    meshes: &[Vec<Mesh>],
     boundaries: &[Boundary],
-    plan: Plan,
+    spectra: bool,
 ) -> Result<Vec<Row>, String> {
-    let draws = sequence.draws(plan.draws);
-    let meshes = plan.meshes(sequence)?;
-    let cells: Vec<(Contestant, Boundary)> =
-        boundaries.iter().flat_map(|b| contestants.iter().map(move |c| (*c, *b))).collect();
-    let jobs: Vec<(usize, usize)> = (0..cells.len()).flat_map(|c| (0..meshes.len()).map(move |m| (c, m))).collect();
-    let measure = |&(c, m): &(usize, usize)| Measurement::of(cells[c].0, &meshes[m], cells[c].1);
-    let measured: Vec<Measurement> = jobs.par_iter().map(measure).collect::<Result<_, String>>()?;
-    let row = |(c, &(contestant, boundary)): (usize, &(Contestant, Boundary))| {
-        let mine = &measured[c * meshes.len()..(c + 1) * meshes.len()];
-        let levels = QUANTITIES.map(|q| levels(mine, &meshes, draws, q));
+    let all: Vec<&Mesh> = meshes.iter().flatten().collect();
+    let spaces: Vec<Vec<Vec<Sampled>>> = boundaries
+        .iter()
+        .map(|&boundary| {
+            let spaces = if spectra { sequence.place.eigenspaces(boundary) } else { Vec::new() };
+            all.par_iter().map(|mesh| spaces.iter().map(|space| space.at(mesh)).collect()).collect()
+        })
+        .collect();
+    let players: Vec<&Contestant> = contestants.iter().filter(|c| c.plays(sequence.place)).collect();
+    let jobs: Vec<(usize, usize)> = (0..boundaries.len()).flat_map(|b| (0..all.len()).map(move |m| (b, m))).collect();
+    let measure = |&(b, m): &(usize, usize)| measure(&players, all[m], boundaries[b], &spaces[b][m]);
+    let measured: Vec<Vec<Measurement>> = jobs.par_iter().map(measure).collect::<Result<_, String>>()?;
+    let row = |b: usize, k: usize| {
+        let mine: Vec<&Measurement> =
+            measured[b * all.len()..(b + 1) * all.len()].iter().map(|list| &list[k]).collect();
         let certified = mine.iter().map(|m| m.certified).collect::<Option<Vec<bool>>>().map(|c| c.iter().all(|c| *c));
-        let mut notes: Vec<String> = mine.iter().filter_map(|m| m.note.clone()).collect();
-        notes.truncate(1);
-        Row { contestant, sequence, boundary, levels, certified, notes }
+        Row {
+            contestant: players[k].clone(),
+            sequence,
+            boundary: boundaries[b],
+            levels: QUANTITIES.map(|q| by_size(meshes, &mine, |m| m.errors[q as usize])),
+            certified,
+            note: mine.iter().find_map(|m| m.note.clone()),
+        }
     };
-    Ok(cells.iter().enumerate().map(row).collect())
+    Ok((0..boundaries.len()).flat_map(|b| (0..players.len()).map(move |k| (b, k))).map(|(b, k)| row(b, k)).collect())
 }
 
-/// The errors of a quantity by level, if every mesh has it.
-fn levels(measured: &[Measurement], meshes: &[Mesh], draws: usize, quantity: Quantity) -> Option<Vec<Level>> {
-    let level = |(measured, meshes): (&[Measurement], &[Mesh])| {
-        let errors = measured.iter().map(|m| m.errors[quantity as usize]).collect::<Option<Vec<f64>>>()?;
-        Some(Level { h: meshes.iter().map(|m| m.h).sum::<f64>() / meshes.len() as f64, errors })
-    };
-    measured.chunks(draws).zip(meshes.chunks(draws)).map(level).collect()
+/// The errors of each operator on one mesh. Operators that have the same matrices there, as `cotan` and `intrinsic-delaunay` where all edges are Delaunay,
+/// are measured once.
+fn measure(
+    players: &[&Contestant],
+    mesh: &Mesh,
+    boundary: Boundary,
+    spaces: &[Sampled],
+) -> Result<Vec<Measurement>, String> {
+    let mut seen: Vec<Operator> = Vec::new();
+    let mut found: Vec<Measurement> = Vec::new();
+    for contestant in players {
+        let operator = contestant.build(mesh)?;
+        let mass = |o: &Operator| o.mass().map(|m| m.matrix().clone());
+        let same = |(k, o): &(usize, &Operator)| {
+            players[*k].scaled == contestant.scaled
+                && o.stiffness() == operator.stiffness()
+                && mass(o) == mass(&operator)
+        };
+        let measurement = match seen.iter().enumerate().find(same) {
+            Some((k, _)) => found[k].clone(),
+            None => Measurement::of(contestant, &operator, mesh, boundary, spaces)?,
+        };
+        found.push(measurement);
+        seen.push(operator);
+    }
+    Ok(found)
 }
 
 /// The errors of one operator on one mesh.
+#[derive(Clone)]
 struct Measurement {
     errors: [Option<f64>; 4],
     certified: Option<bool>,
@@ -165,36 +284,40 @@ struct Measurement {
 }
 
 impl Measurement {
-    fn of(contestant: Contestant, mesh: &Mesh, boundary: Boundary) -> Result<Self, String> {
-        let operator = build(contestant, mesh)?;
-        let mass = operator.mass().ok_or_else(|| format!("{} has no mass", contestant.name))?.matrix().clone();
+    fn of(
+        contestant: &Contestant,
+        operator: &Operator,
+        mesh: &Mesh,
+        boundary: Boundary,
+        spaces: &[Sampled],
+    ) -> Result<Self, String> {
+        let mass = operator.mass().ok_or_else(|| format!("{} has no mass", contestant.name()))?.matrix();
         let mut found = Measurement { errors: [None; 4], certified: None, note: None };
         let symmetric = operator.stiffness().entries().all(|(i, j, v)| *v == operator.stiffness().at(j, i));
-        if symmetric {
-            let spaces = mesh.place.eigenspaces(boundary);
-            match gaps(&operator, &mass, mesh, boundary, &spaces, contestant.scaled) {
+        if symmetric && !spaces.is_empty() {
+            match gaps(operator, mass, mesh, boundary, spaces, contestant.scaled) {
                 Ok(gaps) => {
                     found.errors[..2].copy_from_slice(&[Some(gaps.values), Some(gaps.spaces)]);
                     found.certified = Some(gaps.certified && 100.0 * gaps.rounding <= gaps.values);
                 }
                 Err(error @ SpectrumError::Mass { .. }) => found.note = Some(error.to_string()),
-                Err(error) => return Err(format!("{}: {error}", contestant.name)),
+                Err(error) => return Err(format!("{}: {error}", contestant.name())),
             }
-        } else if boundary == Boundary::Natural {
+        } else if !symmetric && boundary == Boundary::Natural {
             // Without symmetry the right-hand sides for which a solution exists are not those of mean zero.
             found.note = Some("not symmetric: no natural problem".into());
             return Ok(found);
-        } else {
+        } else if !symmetric {
             found.note = Some("not symmetric: no eigenvalues compared".into());
         }
-        let [l2, energy] = solved(contestant, &operator, &mass, mesh, boundary)?;
+        let [l2, energy] = solved(contestant, operator, mass, mesh, boundary)?;
         found.errors[2..].copy_from_slice(&[Some(l2), Some(energy)]);
         Ok(found)
     }
 }
 
 fn solved(
-    contestant: Contestant,
+    contestant: &Contestant,
     operator: &Operator,
     mass: &Csr,
     mesh: &Mesh,
@@ -207,17 +330,27 @@ fn solved(
         Boundary::Dirichlet if contestant.scaled => Fit::Factor,
         Boundary::Dirichlet => Fit::None,
     };
-    let errors = poisson::errors(mesh, &values, &u, fit).ok_or("a face is not a triangle")?;
+    let errors = poisson::errors(mesh, &values, &u, fit);
     Ok([errors.l2, errors.energy])
 }
 
-/// The operator on a mesh.
-///
-/// # Errors
-/// A refusal, in words.
-pub fn build(contestant: Contestant, mesh: &Mesh) -> Result<Operator, String> {
-    let entry = laplacian::find(contestant.id).ok_or_else(|| format!("there is no '{}'", contestant.id))?;
-    let given: BTreeMap<String, String> =
-        contestant.given.iter().map(|(k, v)| (k.to_string(), v.to_string())).collect();
-    entry.build(&mesh.domain, &given).map_err(|e| e.to_string())
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_lists_are_those_of_the_catalogue_with_every_mass_that_is_named() {
+        let names = |list: Vec<Contestant>| list.iter().map(Contestant::name).collect::<Vec<_>>();
+        let promised = names(promised());
+        for name in ["cotan", "cotan:mass=consistent", "intrinsic-delaunay:mass=mixed", "tet-cotan:mass=consistent"] {
+            assert!(promised.iter().any(|p| p == name), "{name}: {promised:?}");
+        }
+        assert!(promised.iter().all(|p| !p.contains("unit")));
+        let denied = names(denied());
+        assert!(["graph", "mean-value"].iter().all(|id| denied.iter().any(|d| d == id)), "{denied:?}");
+        for entry in laplacian::ALL.iter().filter(|e| e.promises.iter().any(|p| p.property == CONVERGENCE)) {
+            let listed = |list: &[String]| list.iter().any(|n| n.split(':').next() == Some(entry.id));
+            assert!(listed(&promised) || listed(&denied), "{}", entry.id);
+        }
+    }
 }

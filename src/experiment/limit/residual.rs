@@ -9,8 +9,8 @@
 //! For K = L the second is the distance in energy of the discrete solution from u at the vertices, so that a solution
 //! converges exactly if it tends to zero; the first bounds it, and not the other way.
 
+use super::mesh::Mesh;
 use super::place::Smooth;
-use super::sequence::Mesh;
 use crate::linalg::Csr;
 use crate::linalg::factor::{FactorError, Ldlt};
 use crate::operator::Operator;
@@ -25,7 +25,8 @@ pub struct Residual {
 }
 
 /// The residuals of a smooth function on a mesh, at the interior vertices, all of them on a closed mesh. `energy` is the stiffness
-/// matrix K. `scaled` divides L by the factor that makes the weak residual smallest.
+/// matrix K. `scaled` multiplies M by the factor that makes it add up to the measure of the mesh, and L by the one that makes the weak
+/// residual smallest then.
 ///
 /// # Errors
 /// An energy that cannot be factorised.
@@ -37,18 +38,17 @@ pub fn residual(
     u: &Smooth,
     scaled: bool,
 ) -> Result<Residual, FactorError> {
-    let point = |v: usize| mesh.place.point(&mesh.domain, v);
-    let all = 0..operator.size();
-    let values: Vec<f64> = all.clone().map(|v| (u.value)(point(v))).collect();
-    let source: Vec<f64> = all.clone().map(|v| (u.source)(point(v))).collect();
+    let total = mesh.elements.iter().map(|e| e.measure).sum::<f64>() / mass.iter().sum::<f64>();
+    let mass: Vec<f64> = mass.iter().map(|m| if scaled { total * m } else { *m }).collect();
+    let (values, source) = (mesh.values(u.value), mesh.values(u.source));
     let inside = mesh.domain.interior();
     let closed = inside.len() == operator.size();
     // On a closed mesh one vertex is fixed and the mean is taken out of both sides, as the solution does.
     let unknown: Vec<usize> = if closed { (1..operator.size()).collect() } else { inside.clone() };
     let mean =
-        if closed { source.iter().zip(mass).map(|(f, m)| f * m).sum::<f64>() / mass.iter().sum::<f64>() } else { 0.0 };
+        if closed { source.iter().zip(&mass).map(|(f, m)| f * m).sum::<f64>() / mass.iter().sum::<f64>() } else { 0.0 };
     let left = operator.stiffness().mul(&values);
-    let right: Vec<f64> = source.iter().zip(mass).map(|(f, m)| (f - mean) * m).collect();
+    let right: Vec<f64> = source.iter().zip(&mass).map(|(f, m)| (f - mean) * m).collect();
     let factor = Ldlt::new(&energy.submatrix(&unknown, &unknown))?;
     let pick = |x: &[f64]| unknown.iter().map(|&v| x[v]).collect::<Vec<f64>>();
     let mut solved = [pick(&left), pick(&right)];
