@@ -46,6 +46,9 @@ fn of_laplacian(l: &Laplacian) -> String {
         let when = if when.is_empty() { String::new() } else { format!(", with {}", when.join(" and ")) };
         text += &match promise.outcome {
             Promised::Holds => format!("  promise: {} holds{given}{when}\n", promise.property),
+            Promised::FailsSomewhere if promise.property == laplacian::CONVERGENCE => {
+                format!("  promise: {} fails on some sequence of meshes{when}: lapjury verify t01\n", promise.property)
+            }
             Promised::FailsSomewhere => format!(
                 "  promise: {} fails on some domain: lapjury witness {} {}\n",
                 promise.property, l.id, promise.property

@@ -6,6 +6,7 @@
 //! To add one: write the file and name it below, in the `catalogue`.
 
 mod calculus;
+pub mod limit;
 mod poll;
 pub mod world;
 
@@ -44,6 +45,9 @@ catalogue! {
     tutte_embedding,
     flips_in_the_plane,
     flips_on_tori,
+    convergence,
+    consistency,
+    schwarz_lantern,
 }
 
 use crate::figure::Figure;

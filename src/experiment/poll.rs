@@ -24,15 +24,22 @@ impl Case {
     }
 }
 
-/// "Is it so in every case?": yes unless a case speaks against it, and the first one that does is kept.
+/// "Is it so in every case?": no if a case speaks against it, and the first one that does is kept. Without one the question is open as soon as
+/// a single case is: what was not decided could be the exception.
 #[derive(Default)]
 pub struct Every {
     decided: usize,
     against: usize,
     first: Option<Case>,
+    open: Vec<String>,
 }
 
 impl Every {
+    /// Counts a case that decides nothing, and says why.
+    pub fn leave_open(&mut self, why: impl Into<String>) {
+        self.open.push(why.into());
+    }
+
     /// Counts a case; `violation` is what speaks against the statement there.
     pub fn ask(&mut self, violation: Option<Case>) {
         self.decided += 1;
@@ -44,13 +51,17 @@ impl Every {
 
     /// The answer; `cases` says what a case is.
     pub fn answer(self, part: &'static str, question: impl Into<String>, cases: &str) -> Finding {
-        let agrees = self.decided > 0 && self.against == 0;
+        let (agrees, open) = (self.decided > 0 && self.against == 0 && self.open.is_empty(), self.open.len());
         let (mut text, mut evidence) = (format!("{} {cases}: no exception", self.decided), Vec::new());
         if let Some(first) = self.first {
             text = format!("{} of {} {cases} are exceptions; the first: {}", self.against, self.decided, first.text);
             evidence = first.evidence;
         }
-        finding(part, question, agrees, self.decided, text, evidence)
+        if let Some(first) = self.open.first() {
+            text += &format!("; {open} left open, the first: {first}");
+        }
+        let decided = if self.against == 0 && open > 0 { 0 } else { self.decided };
+        Finding { open, ..finding(part, question, agrees, decided, text, evidence) }
     }
 }
 
@@ -108,6 +119,28 @@ mod tests {
         let answer = every.answer("p", "?", "cases");
         assert_eq!((answer.agrees, answer.decided), (false, 5));
         assert_eq!(answer.finding, "2 of 5 cases are exceptions; the first: case 3");
+    }
+
+    #[test]
+    fn one_open_case_leaves_the_question_open_unless_another_decides_it() {
+        let ask = |cases: &[Option<bool>]| {
+            let mut every = Every::default();
+            for case in cases {
+                match case {
+                    Some(agrees) => every.ask((!agrees).then(|| Case::told("no"))),
+                    None => every.leave_open("too noisy"),
+                }
+            }
+            let answer = every.answer("p", "?", "cases");
+            (answer.agrees, answer.decided, answer.open, answer.finding)
+        };
+        assert_eq!(ask(&[None]), (false, 0, 1, "0 cases: no exception; 1 left open, the first: too noisy".into()));
+        assert_eq!(
+            ask(&[Some(true), None]),
+            (false, 0, 1, "1 cases: no exception; 1 left open, the first: too noisy".into())
+        );
+        let text = "1 of 2 cases are exceptions; the first: no; 1 left open, the first: too noisy";
+        assert_eq!(ask(&[Some(true), Some(false), None]), (false, 2, 1, text.into()));
     }
 
     #[test]

@@ -27,6 +27,7 @@
 //! * MASS: `barycentric`, `mixed` and `consistent`.
 //! * RIGID, ISO, SCALE: `unit` mass does not scale. Promised where angles are at least 1°: coordinates are rounded by the
 //!   motion, and a cotangent magnifies that by 1/sin².
+//! * CON: for every mass but `unit`, where the angles stay below a bound less than 180° and the metric converges.
 //!
 //! # Does not hold
 //! * POS, POS0: the vertices (±2, 0), (0, ±1) with the edge along the long diagonal, whose weight is −¾. MVP, MAX-local: any mesh
@@ -48,7 +49,7 @@
 //!
 //! # References
 //! \[macneal1949\], \[duffin1959\] (plane), \[dziuk1988\] (surfaces, convergence), \[pinkall-polthier1993\];
-//! \[meyer2003\] for the mass `mixed`; \[wardetzky2007\] for the properties.
+//! \[meyer2003\] for the mass `mixed`; \[wardetzky2007\] for the properties, CON among them.
 //!
 //! # Example
 //! The star with neighbours (±2, 0) and (0, ±1): opposite the edge to (2, 0) both angles have cotangent ½, opposite the edge
@@ -67,7 +68,7 @@
 use std::cmp::Ordering;
 
 use super::shape::{Flank, Triangles};
-use super::{BuildError, Fact, Laplacian, Promise, When, on_triangles, stiffness};
+use super::{BuildError, CONVERGENCE, Fact, Laplacian, Promise, When, on_triangles, stiffness};
 use crate::domain::{Domain, Surface, cotangent, delaunay};
 use crate::linalg::Csr;
 use crate::operator::Operator;
@@ -119,6 +120,7 @@ pub static ENTRY: Laplacian = Laplacian {
         Promise::holds_given("ISO", &[Fact::HealthyAngles]),
         Promise::holds_given("SCALE", &[Fact::HealthyAngles])
             .when(&[When::Is("mass", &["barycentric", "voronoi", "mixed", "consistent"])]),
+        Promise::holds(CONVERGENCE).when(&[on_triangles::REFINABLE]),
         Promise::fails_somewhere("POS"),
         Promise::fails_somewhere("POS0"),
         Promise::fails_somewhere("POS-boundary"),

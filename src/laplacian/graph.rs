@@ -21,6 +21,7 @@
 //! # Does not hold
 //! * LIN: a vertex that is not the mean of its neighbours.
 //! * ENERGY, FLUX: the unit square with a diagonal has the energy 3 in x, and area 1.
+//! * CON: squares cut along one diagonal, even up to the best factor \[wardetzky2007\].
 //!
 //! # Boundary
 //! The row of a boundary vertex is like every other.
@@ -32,7 +33,7 @@
 //! O(E). Exact.
 //!
 //! # References
-//! \[chung1997\] section 1.2 (unnormalised).
+//! \[chung1997\] section 1.2 (unnormalised); \[wardetzky2007\] (CON).
 //!
 //! # Example
 //! The path with three vertices.
@@ -46,7 +47,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use super::{BuildError, Fact, Laplacian, Promise, stiffness};
+use super::{BuildError, CONVERGENCE, Fact, Laplacian, Promise, stiffness};
 use crate::domain::{Domain, DomainKind};
 use crate::operator::{Mass, MassKind, Operator, Provenance};
 use crate::parameter::Settings;
@@ -56,7 +57,7 @@ pub static ENTRY: Laplacian = Laplacian {
     id: "graph",
     name: "graph Laplacian",
     definition: "ω_ij = 1 on every edge",
-    sources: &["chung1997"],
+    sources: &["chung1997", "wardetzky2007"],
     accepts: &[DomainKind::Surface, DomainKind::Graph, DomainKind::Volume],
     parameters: &[],
     promises: &[
@@ -81,6 +82,7 @@ pub static ENTRY: Laplacian = Laplacian {
         Promise::fails_somewhere("LIN"),
         Promise::fails_somewhere("ENERGY"),
         Promise::fails_somewhere("FLUX"),
+        Promise::fails_somewhere(CONVERGENCE),
     ],
     build,
 };

@@ -23,6 +23,7 @@
 //! * LIN, ENERGY, FLUX: on planar meshes, convex or not: flips give a triangulation of the same domain by straight edges.
 //! * PERM, UNION, RIGID, ISO, SCALE: for the masses `voronoi` and `unit` (SCALE: `voronoi`), which do not depend on the choice at
 //!   cocircular vertices; promised where angles are at least 1°.
+//! * CON: for every mass but `unit`, as of `cotan`: linear elements of the same metric. The table of \[wardetzky2007\] leaves it open.
 //!
 //! # Does not hold
 //! * LOC: the vertices (±2, 0), (0, ±1) with the long diagonal: the entry of the short one, which is no edge of the mesh.
@@ -66,7 +67,7 @@
 //! ```
 
 use super::shape::{self, Shape, Triangles};
-use super::{BuildError, Fact, Laplacian, Promise, When, mass, on_triangles, stiffness};
+use super::{BuildError, CONVERGENCE, Fact, Laplacian, Promise, When, mass, on_triangles, stiffness};
 use crate::domain::intrinsic::{IntrinsicError, IntrinsicTriangulation};
 use crate::domain::{Domain, cotangent, delaunay};
 use crate::linalg::{Csr, parallel};
@@ -109,6 +110,7 @@ pub static ENTRY: Laplacian = Laplacian {
         Promise::holds_given("RIGID", &[Fact::HealthyAngles]).when(&[UNIQUE]),
         Promise::holds_given("ISO", &[Fact::HealthyAngles]).when(&[UNIQUE]),
         Promise::holds_given("SCALE", &[Fact::HealthyAngles]).when(&[When::Is("mass", &["voronoi"])]),
+        Promise::holds(CONVERGENCE).when(&[on_triangles::REFINABLE]),
         Promise::fails_somewhere("LOC"),
         Promise::fails_somewhere("POS"),
         Promise::fails_somewhere("POS-boundary"),

@@ -28,6 +28,7 @@
 //! * ENERGY, FLUX, SCALE: the weights are not dimensionless.
 //! * MAX-heat: the consistent mass with small time steps.
 //! * MASS: `voronoi` and `unit`, as for `cotan`.
+//! * CON: squares cut along one diagonal, even up to the best factor \[wardetzky2007\].
 //!
 //! # Boundary
 //! The row of a boundary vertex is the sum over the triangles present.
@@ -41,7 +42,7 @@
 //! so signs are exact.
 //!
 //! # References
-//! \[floater2003\]; \[floater-hormann-kos2006\] for its place in the family.
+//! \[floater2003\]; \[floater-hormann-kos2006\] for its place in the family; \[wardetzky2007\] for CON.
 //!
 //! # Example
 //! The star with neighbours (±2, 0) and (0, ±1): all angles at the centre are right, tan 45° = 1, so the weight of an edge is
@@ -58,7 +59,7 @@
 //! ```
 
 use super::shape::{Flank, Triangles};
-use super::{BuildError, Fact, Laplacian, Promise, on_triangles};
+use super::{BuildError, CONVERGENCE, Fact, Laplacian, Promise, on_triangles};
 use crate::domain::Domain;
 use crate::operator::Operator;
 use crate::parameter::Settings;
@@ -68,7 +69,7 @@ pub static ENTRY: Laplacian = Laplacian {
     id: "mean-value",
     name: "mean value Laplacian",
     definition: "ω_ij = (tan(γ_ij/2) + tan(δ_ij/2))/|e_ij|, γ and δ the angles at i beside the edge",
-    sources: &["floater2003", "floater-hormann-kos2006"],
+    sources: &["floater2003", "floater-hormann-kos2006", "wardetzky2007"],
     accepts: on_triangles::ACCEPTS,
     parameters: &[on_triangles::MASS, on_triangles::DEGENERATE],
     promises: &[
@@ -99,6 +100,7 @@ pub static ENTRY: Laplacian = Laplacian {
         Promise::fails_somewhere("SCALE"),
         Promise::fails_somewhere("MAX-heat"),
         Promise::fails_somewhere("MASS"),
+        Promise::fails_somewhere(CONVERGENCE),
     ],
     build,
 };

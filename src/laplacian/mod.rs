@@ -96,7 +96,12 @@ impl Laplacian {
     }
 }
 
-/// A promise of the literature about a property.
+/// CON, the convergence of "Discrete Laplace operators: no free lunch" \[wardetzky2007\]: solutions of Poisson's equation, and with them
+/// eigenvalues and eigenspaces, tend to the smooth ones on meshes that refine a smooth domain. It is promised like a property, and is none: no
+/// single mesh decides it. The experiment [`convergence`](crate::experiment) tries every promise of it.
+pub const CONVERGENCE: &str = "CON";
+
+/// A promise of the literature about a property, or of [`CONVERGENCE`].
 pub struct Promise {
     /// The property's id.
     pub property: &'static str,

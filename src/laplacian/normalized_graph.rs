@@ -25,7 +25,7 @@
 //! * NULL, KER, MVP: for `form=symmetric` on a graph that is not regular: the kernel is spanned by `√d_i`, which is not constant
 //!   on the path with three vertices.
 //! * POS, POS0, PSD: for given weights of both signs: 3, 3, −2 on a triangle, where all degrees are positive.
-//! * LIN, ENERGY, FLUX: as for `graph`.
+//! * LIN, ENERGY, FLUX, CON: as for `graph`.
 //!
 //! # Boundary
 //! The row of a boundary vertex is like every other.
@@ -57,7 +57,7 @@
 //! ```
 
 use super::weighted_graph::{POSITIVE, edge_weights};
-use super::{BuildError, Fact, Laplacian, Promise, When, stiffness};
+use super::{BuildError, CONVERGENCE, Fact, Laplacian, Promise, When, stiffness};
 use crate::domain::{Domain, DomainKind};
 use crate::linalg::Csr;
 use crate::operator::{Mass, MassKind, Operator, Provenance};
@@ -116,6 +116,7 @@ pub static ENTRY: Laplacian = Laplacian {
         Promise::fails_somewhere("LIN"),
         Promise::fails_somewhere("ENERGY"),
         Promise::fails_somewhere("FLUX"),
+        Promise::fails_somewhere(CONVERGENCE),
     ],
     build,
 };

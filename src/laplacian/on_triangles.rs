@@ -31,6 +31,9 @@ pub(super) const POSITIVE_LUMPED: When = When::Is("mass", &["barycentric", "mixe
 /// Masses that are positive definite on every surface and add up to its area.
 pub(super) const POSITIVE_AREA: When = When::Is("mass", &["barycentric", "mixed", "consistent"]);
 
+/// Masses that integrate smooth functions in the limit of fine meshes.
+pub(super) const REFINABLE: When = When::Is("mass", &["barycentric", "voronoi", "mixed", "consistent"]);
+
 /// The surface of a domain.
 pub(super) fn surface<'a>(laplacian: &'static str, domain: &'a Domain) -> Result<&'a Surface, BuildError> {
     domain.as_surface().ok_or(BuildError::WrongKind { laplacian, kind: domain.kind(), accepts: ACCEPTS })

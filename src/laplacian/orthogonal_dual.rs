@@ -34,6 +34,7 @@
 //! * FLUX: of `zero`, on manifolds.
 //! * POS: of `zero`, where every interior edge is strictly Delaunay. POS0: of `zero`, where every interior edge is Delaunay.
 //! * MASS: `barycentric`, `mixed` and `consistent`.
+//! * CON: of `zero`, which is `cotan`, for every mass but `unit`.
 //!
 //! # Does not hold
 //! * POS, POS0, POS-boundary, MVP, MAX-local, MAX-global, MAX-heat: where the triangulation is not the weighted Delaunay
@@ -73,7 +74,7 @@
 //! ```
 
 use super::shape::Triangles;
-use super::{BuildError, Fact, Laplacian, Promise, When, cotan, on_triangles, stiffness};
+use super::{BuildError, CONVERGENCE, Fact, Laplacian, Promise, When, cotan, on_triangles, stiffness};
 use crate::domain::{Domain, Surface};
 use crate::linalg::Csr;
 use crate::operator::Operator;
@@ -127,6 +128,7 @@ pub static ENTRY: Laplacian = Laplacian {
         Promise::holds_given("POS0", &[Fact::Delaunay, Fact::Manifold]).when(&[ZERO]),
         Promise::holds_given("MASS", &[Fact::NonDegenerate, Fact::NoIsolatedVertex])
             .when(&[on_triangles::POSITIVE_AREA]),
+        Promise::holds(CONVERGENCE).when(&[ZERO, on_triangles::REFINABLE]),
         Promise::fails_somewhere("POS"),
         Promise::fails_somewhere("POS0"),
         Promise::fails_somewhere("POS-boundary"),

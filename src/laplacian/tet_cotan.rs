@@ -22,6 +22,7 @@
 //! * FIN, LOC, SYM, NULL, PSD, PERM, UNION, REACH: always.
 //! * LIN: at interior vertices whose tetrahedra fill a neighbourhood. *Exception*: where two tetrahedra overlap the fluxes do not cancel.
 //! * MASS: `barycentric`, `consistent`.
+//! * CON: for these, where the angles of and between faces stay below a bound less than 180° \[strang-fix1973\].
 //!
 //! The kernel is the constants on every connected volume, and motions and scalings act as they should (length, length³), but
 //! that is not promised: on a sliver an eigenvalue, or a weight after a motion, drowns in rounding.
@@ -43,7 +44,7 @@
 //! exact and a true zero is stored as zero.
 //!
 //! # References
-//! \[crane2019\] (the formula in n dimensions and its derivation).
+//! \[crane2019\] (the formula in n dimensions and its derivation); \[strang-fix1973\] (linear elements).
 //!
 //! # Example
 //! The corner of a cube, legs of length one: the gradients are the axes and −(1, 1, 1), the volume ⅙.
@@ -63,7 +64,7 @@ use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 use super::shape::with_sign;
-use super::{BuildError, Fact, Laplacian, Promise, When, stiffness};
+use super::{BuildError, CONVERGENCE, Fact, Laplacian, Promise, When, stiffness};
 use crate::domain::geometry::{self, cross3, dot};
 use crate::domain::{Domain, DomainKind, Volume};
 use crate::linalg::Csr;
@@ -76,7 +77,7 @@ pub static ENTRY: Laplacian = Laplacian {
     id: "tet-cotan",
     name: "cotangent Laplacian of tetrahedra",
     definition: "ω_ij = ⅙ Σ ℓ_kl cot θ_kl over the tetrahedra ijkl, θ the dihedral angle at the edge opposite",
-    sources: &["crane2019"],
+    sources: &["crane2019", "strang-fix1973"],
     accepts: &[DomainKind::Volume],
     parameters: &[Parameter {
         name: "mass",
@@ -96,6 +97,7 @@ pub static ENTRY: Laplacian = Laplacian {
         Promise::holds("LIN"),
         Promise::holds_given("MASS", &[Fact::NoIsolatedVertex])
             .when(&[When::Is("mass", &["barycentric", "consistent"])]),
+        Promise::holds(CONVERGENCE).when(&[When::Is("mass", &["barycentric", "consistent"])]),
         Promise::fails_somewhere("POS"),
         Promise::fails_somewhere("POS0"),
         Promise::fails_somewhere("POS-boundary"),

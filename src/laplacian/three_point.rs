@@ -32,6 +32,7 @@
 //! * SYM, PSD, ENERGY, FLUX, SCALE: for p other than 2.
 //! * POS, POS0, POS-boundary, MVP, MAX-local, MAX-global, MAX-heat: for p other than 1, on stars with obtuse angles.
 //! * MASS: `voronoi` and `unit`, as for `cotan`.
+//! * CON: p = 0 and p = 1 on squares cut along one diagonal, even up to the best factor. p = 2 is twice `cotan`.
 //!
 //! # Boundary
 //! The row of a boundary vertex is the sum over the triangles present.
@@ -65,7 +66,7 @@ use std::cmp::Ordering;
 
 use super::mean_value::tan_half;
 use super::shape::{Flank, Triangles, with_sign};
-use super::{BuildError, Fact, Laplacian, Promise, When, cotan, on_triangles, stiffness, wachspress};
+use super::{BuildError, CONVERGENCE, Fact, Laplacian, Promise, When, cotan, on_triangles, stiffness, wachspress};
 use crate::domain::{Domain, Surface};
 use crate::linalg::Csr;
 use crate::operator::Operator;
@@ -135,6 +136,7 @@ pub static ENTRY: Laplacian = Laplacian {
         Promise::fails_somewhere("MAX-global"),
         Promise::fails_somewhere("MAX-heat"),
         Promise::fails_somewhere("MASS"),
+        Promise::fails_somewhere(CONVERGENCE).when(&[When::Between("p", 0.0, 1.0)]),
     ],
     build,
 };

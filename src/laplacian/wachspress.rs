@@ -30,6 +30,7 @@
 //! * MAX-global, MAX-heat: some meshes with stars that are not convex.
 //! * ENERGY, FLUX, SCALE: the weights are not dimensionless.
 //! * MASS: `voronoi` and `unit`, as for `cotan`.
+//! * CON: squares cut along one diagonal, even up to the best factor.
 //!
 //! # Boundary
 //! The row of a boundary vertex is the sum over the triangles present.
@@ -62,7 +63,7 @@
 use std::cmp::Ordering;
 
 use super::shape::{Flank, Triangles, with_sign};
-use super::{BuildError, Fact, Laplacian, Promise, on_triangles, stiffness};
+use super::{BuildError, CONVERGENCE, Fact, Laplacian, Promise, on_triangles, stiffness};
 use crate::domain::{Domain, Surface, delaunay};
 use crate::linalg::Csr;
 use crate::operator::Operator;
@@ -110,6 +111,7 @@ pub static ENTRY: Laplacian = Laplacian {
         Promise::fails_somewhere("FLUX"),
         Promise::fails_somewhere("SCALE"),
         Promise::fails_somewhere("MASS"),
+        Promise::fails_somewhere(CONVERGENCE),
     ],
     build,
 };

@@ -22,6 +22,7 @@
 //! * PSD, POS, POS0, KER, MVP, MAX-local, MAX-global, MAX-heat: for given weights of both signs: the single edge of weight −1 is negative,
 //!   and weights 1, 1, −½ on a triangle have a kernel beyond the constants.
 //! * LIN, ENERGY, FLUX, SCALE: lengths alone know nothing of angles.
+//! * CON: for those rules, squares cut along one diagonal, even up to the best factor.
 //!
 //! # Boundary
 //! The row of a boundary vertex is like every other.
@@ -48,7 +49,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use super::{BuildError, Fact, Laplacian, Promise, When, stiffness};
+use super::{BuildError, CONVERGENCE, Fact, Laplacian, Promise, When, stiffness};
 use crate::domain::geometry::Vec3;
 use crate::domain::{Domain, DomainKind};
 use crate::operator::{Mass, MassKind, Operator, Provenance};
@@ -101,6 +102,7 @@ pub static ENTRY: Laplacian = Laplacian {
         Promise::fails_somewhere("ENERGY"),
         Promise::fails_somewhere("FLUX"),
         Promise::fails_somewhere("SCALE"),
+        Promise::fails_somewhere(CONVERGENCE).when(&[POSITIVE]),
     ],
     build,
 };

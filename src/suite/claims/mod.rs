@@ -77,6 +77,7 @@ pub static BUILT_IN: &[(&str, &str)] = &[
     ("no_free_lunch", include_str!("../../../suites/claims/no_free_lunch.toml")),
     ("triangulations", include_str!("../../../suites/claims/triangulations.toml")),
     ("isospectral", include_str!("../../../suites/claims/isospectral.toml")),
+    ("convergence", include_str!("../../../suites/claims/convergence.toml")),
 ];
 
 /// Every claim that comes with the program, in the order of the files.
