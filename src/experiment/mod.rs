@@ -42,6 +42,7 @@ catalogue! {
     flips_on_tori,
     convergence,
     consistency,
+    point_cloud_consistency,
     schwarz_lantern,
 }
 
