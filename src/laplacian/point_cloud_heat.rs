@@ -33,7 +33,7 @@
 //! * LOC: that is what it is made for.
 //! * POS, POS-boundary: a mesh edge that is longer than the reach has no weight.
 //! * KER, MAX-global: a connected mesh whose edges are longer than the reach here and there falls into pieces.
-//! * LIN: sums over irregular points do not cancel; `lapjury atlas` prints the smallest example.
+//! * LIN: sums over irregular points do not cancel; `lapjury witness point-cloud-heat LIN` prints the smallest example.
 //! * ENERGY, FLUX: at a boundary the kernel sees one side only.
 //! * MASS: the areas are those of the points, not of the triangles of the mesh.
 //! * REACH: the bandwidth comes from all areas.
@@ -418,8 +418,9 @@ mod tests {
         let cube: Vec<[f64; 3]> = (0..8).map(|k| [0, 1, 2].map(|b| f64::from(k >> b & 1))).collect();
         let crooked = format!("the 7 points nearest to point 0 do not lie near a plane, {sample}");
         assert_eq!(refusal(&cube, &[]), crooked);
-        let curve = format!("the 3 points nearest to point 0 do not lie near a line, {sample}");
-        assert_eq!(refusal(&[a, b, c, [1.0, 1.0, 0.0]], &[("dimension", "1")]), curve);
+        let curve = format!("the 5 points nearest to point 0 do not lie near a line, {sample}");
+        let grid: Vec<[f64; 3]> = (0..9).map(|k| [f64::from(k / 3), f64::from(k % 3), 0.0]).collect();
+        assert_eq!(refusal(&grid, &[("dimension", "1")]), curve);
         let refused = refusal(&[a, b, c], &[("bandwidth", "0.01")]);
         assert!(
             refused.starts_with("point 0 is 1e0 away from the next, and 'point-cloud-heat' reaches 2.449"),
