@@ -329,8 +329,8 @@ mod tests {
         let heat = sample.heat(0.25, 6.0);
         let f: Vec<f64> = points.iter().map(|p| p[0] + p[1] * p[2]).collect();
         let product = built.stiffness().mul(&f);
-        for i in 0..points.len() {
-            let expected = product[i] / sample.areas()[i];
+        for (i, value) in product.iter().enumerate() {
+            let expected = value / sample.areas()[i];
             let scale: f64 = heat.row(i).map(|(_, c)| c).sum();
             assert!((heat.apply(&f, i) - expected).abs() < 1e-13 * scale);
         }
