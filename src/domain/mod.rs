@@ -13,6 +13,7 @@ pub mod geometry;
 mod graph;
 pub mod incidence;
 pub mod intrinsic;
+pub mod nearest;
 mod points;
 mod surface;
 pub mod topology;

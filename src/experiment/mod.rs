@@ -47,6 +47,7 @@ catalogue! {
     flips_on_tori,
     convergence,
     consistency,
+    point_cloud_consistency,
     schwarz_lantern,
 }
 

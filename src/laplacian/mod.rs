@@ -7,6 +7,7 @@
 
 pub mod equilibrium;
 pub mod exact;
+mod local_star;
 pub mod mass;
 mod on_triangles;
 pub mod shape;
@@ -26,6 +27,7 @@ catalogue! {
     pub tet_cotan,
     pub orthogonal_dual,
     optimal_positive,
+    pub point_cloud_heat,
 }
 
 use std::collections::BTreeMap;
@@ -373,6 +375,63 @@ pub enum BuildError {
         laplacian: &'static str,
         /// The motion that shows it.
         certificate: Box<equilibrium::Certificate>,
+    },
+    /// Fewer points than a star needs.
+    #[error(
+        "'{laplacian}' needs at least {needed} points for a tangent space of dimension {dimension}, and there are {points}; add points"
+    )]
+    TooFewPoints {
+        /// The entry.
+        laplacian: &'static str,
+        /// How many there are.
+        points: usize,
+        /// How many are needed.
+        needed: usize,
+        /// The dimension.
+        dimension: usize,
+    },
+    /// Two points at the same place.
+    #[error(
+        "points {a} and {b} coincide, or nearly so, and '{laplacian}' gives each point an area of its own; merge points that \
+         coincide"
+    )]
+    Coincident {
+        /// The entry.
+        laplacian: &'static str,
+        /// One point.
+        a: usize,
+        /// The other.
+        b: usize,
+    },
+    /// A point whose neighbours have no tangent space.
+    #[error(
+        "the {neighbours} points nearest to point {vertex} {why}, so that '{laplacian}' finds no tangent space there; sample \
+         what is curved more densely, and set the dimension to that of what is sampled"
+    )]
+    NoTangent {
+        /// The entry.
+        laplacian: &'static str,
+        /// The point.
+        vertex: usize,
+        /// How many neighbours were looked at.
+        neighbours: usize,
+        /// What they do.
+        why: &'static str,
+    },
+    /// A point that is out of reach of all others.
+    #[error(
+        "point {vertex} is {distance:e} away from the next, and '{laplacian}' reaches {reach:e} with this bandwidth and cutoff; \
+         choose a larger bandwidth, or remove the point"
+    )]
+    OutOfReach {
+        /// The entry.
+        laplacian: &'static str,
+        /// The point.
+        vertex: usize,
+        /// The distance of the nearest other.
+        distance: f64,
+        /// How far the kernel reaches.
+        reach: f64,
     },
     /// A weight or mass that came out NaN or infinite.
     #[error(

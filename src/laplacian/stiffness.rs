@@ -93,6 +93,18 @@ pub(super) fn of_edges(
     Ok(matrix)
 }
 
+/// The matrix of these weights, row by row, each row `(j, ω_ij)` with columns ascending and without its diagonal.
+///
+/// # Errors
+/// The first entry that is NaN or infinite.
+pub(super) fn of_rows(laplacian: &'static str, rows: &[Vec<(usize, f64)>]) -> Result<Csr, BuildError> {
+    let entries = |i: usize| rows[i].iter().map(|&(j, weight)| (j, 0.0 - weight));
+    let write = |i: usize, indices: &mut [usize], values: &mut [f64]| write_row(i, entries(i), indices, values);
+    let matrix = Csr::from_rows(rows.len(), rows.len(), |i| 1 + rows[i].len(), write);
+    check_finite(laplacian, &matrix)?;
+    Ok(matrix)
+}
+
 /// Writes the entries of a row, columns ascending, and the diagonal between them, which is summed over them.
 fn write_row<S: Scalar>(i: usize, entries: impl Iterator<Item = (usize, S)>, indices: &mut [usize], values: &mut [S]) {
     let (mut sum, mut at, mut diagonal) = (S::zero(), 0, 0);

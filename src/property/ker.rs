@@ -23,7 +23,8 @@
 //! larger. On a mesh squeezed by 1e7 even linear functions come that near to the kernel, and nothing is decided.
 //!
 //! # Exception
-//! A matrix that is neither symmetric nor without negative weights is not decided beyond [`LARGEST_DENSE`] vertices.
+//! Not applicable to point clouds, where being connected is a matter of distance. A matrix that is neither symmetric nor without
+//! negative weights is not decided beyond [`LARGEST_DENSE`] vertices.
 //!
 //! # Cost
 //! O(n + nnz) for step 2, two sparse factorisations for step 3, O(n³) for step 4.
@@ -35,6 +36,7 @@ use super::solve::chains::Chains;
 use super::solve::null_vector;
 use super::tolerance::{Sign, Threshold, UNIT_ROUNDOFF};
 use super::{Evidence, Level, Property, Question, Statement, Trial, Verdict};
+use crate::domain::DomainKind;
 use crate::linalg::Csr;
 use crate::linalg::factor::Ldlt;
 use crate::linalg::full::Full;
@@ -66,6 +68,9 @@ fn decide(trial: &Trial) -> Verdict {
     }
     if trial.domain.vertex_count() == 0 {
         return Verdict::not_applicable("the domain has no vertex");
+    }
+    if trial.domain.kind() == DomainKind::Points {
+        return Verdict::not_applicable("in a point cloud being connected is a matter of distance");
     }
     let case = Case::new(trial);
     let verdict = case.constants().or_else(|| case.pieces()).or_else(|| case.random_walk());

@@ -195,10 +195,26 @@ fn volumes() -> Vec<Place> {
     ]
 }
 
-/// Point clouds: nothing in the catalogue accepts one.
+/// Point clouds, of every dimension.
 pub fn clouds() -> Vec<Place> {
     let cloud = |points: &[[f64; 3]]| PointCloud::new(points.to_vec(), None).unwrap();
-    vec![place("no points", cloud(&[])), place("two points", cloud(&[[0.0; 3], [1.0; 3]]))]
+    let turn = |k: usize, n: usize| (std::f64::consts::TAU * k as f64 / n as f64).sin_cos();
+    let circle: Vec<[f64; 3]> = (0..30).map(|k| turn(k, 30)).map(|(s, c)| [c, s, 0.5 * s]).collect();
+    let ring = |k: usize| [turn(k % 12, 12), turn(k / 12, 24)];
+    let torus: Vec<[f64; 3]> =
+        (0..288).map(ring).map(|[(s, c), (sin, cos)]| [(3.0 + c) * cos, (3.0 + c) * sin, s]).collect();
+    vec![
+        place("no points", cloud(&[])),
+        place("two points", cloud(&[[0.0; 3], [1.0; 3]])),
+        place("three points", cloud(&[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])),
+        place("a point given twice", cloud(&[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]])),
+        place(
+            "the corners of a cube",
+            cloud(&[0, 1, 2, 3, 4, 5, 6, 7].map(|k| [0, 1, 2].map(|b| f64::from(k >> b & 1)))),
+        ),
+        place("an ellipse of points", cloud(&circle)),
+        place("a torus of points", cloud(&torus)),
+    ]
 }
 
 /// Every domain.

@@ -150,6 +150,8 @@ fn every_construction_builds_on_every_sound_domain_of_its_kind() {
         let manifold = entry.id != "intrinsic-delaunay" || !place.name.starts_with("fan");
         // Positive weights need a plane, and need not exist there.
         let manifold = manifold && entry.id != "optimal-positive";
+        // Four or eight points about a centre have no tangent planes, and slivers reach no further than they are wide.
+        let manifold = manifold && entry.id != "point-cloud-heat";
         let generated = domains::GENERATED.contains(&place.name.as_str());
         let sound = generated && surface && manifold && !weights_given(maker);
         if sound && entry.accepts.contains(&place.domain.kind()) {
