@@ -8,6 +8,7 @@ use super::super::figure::{Drawn, drawn};
 use super::super::figures;
 use super::super::number::count;
 use super::super::plot::PlotError;
+use super::super::statement;
 use super::{Page, replay, scroll};
 use crate::record::{ClaimLine, ClaimOutcome, TestLine};
 
@@ -82,11 +83,18 @@ fn test(t: &TestLine) -> Markup {
         tr {
             td.prose { (t.question) }
             td { (t.form) }
-            td class=(if t.agrees { "holds" } else { "fails" }) { (if t.agrees { "✓ yes" } else { "✗ no" }) }
+            @match (t.decided, t.agrees) {
+                (0, _) => { td.undecided { "open" } }
+                (_, true) => { td.holds { "✓ yes" } }
+                (_, false) => { td.fails { "✗ no" } }
+            }
             td.n { (count(t.decided)) }
             td.n { (count(t.open)) }
             td { (t.level) }
-            td.prose { (t.finding) }
+            td.prose {
+                (t.finding)
+                @for evidence in &t.evidence { p.meta { "Evidence: " (statement(evidence)) "." } }
+            }
         }
     }
 }
