@@ -204,8 +204,9 @@ mod tests {
             for r in [1, 2] {
                 let trend = judge(&levels(|h| h * h * (1.0 + c * h.powi(r))));
                 let Trend::Converges(order) = trend else { panic!("{c} {r}: {trend}") };
+                // A fifth for what the first order in c hʳ leaves out: it is as large as ⅜.
                 assert!(
-                    (order.p - 2.0).abs() <= 1.1 * order.half_width && order.half_width < 0.6,
+                    (order.p - 2.0).abs() <= 1.2 * order.half_width && order.half_width < 0.6,
                     "{c} {r}: {order:?}"
                 );
             }
