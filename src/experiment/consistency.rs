@@ -20,7 +20,7 @@ use crate::property::Level;
 pub static ENTRY: Experiment = Experiment {
     id: "consistency",
     name: "Consistency and convergence",
-    statement: "for a smooth u at the vertices of refined meshes: whether the largest |M⁻¹Lu − (−Δu)| at a vertex tends to zero wherever \
+    statement: "for a smooth u at the vertices of refined surfaces and of structured cubes: whether the largest |M⁻¹Lu − (−Δu)| at a vertex tends to zero wherever \
                 the solution of Poisson's equation converges; whether the residual Lu − M(−Δu) does in the dual of the energy; and \
                 whether that stays where the solution does not converge",
     sources: &["wardetzky-primer", "wardetzky2007", "dziuk1988"],
@@ -83,15 +83,18 @@ fn outcomes(contestants: &[Contestant], sequence: Sequence, plan: Plan) -> Resul
 fn plan(setting: &Setting) -> Plan {
     let seed = setting.seed;
     match setting.effort {
-        Effort::Smoke => Plan { sizes: &[(8, 12), (16, 8), (32, 6)], solid: &[(4, 3), (6, 3), (9, 3)], seed },
-        Effort::Full => Plan { sizes: &[(16, 10), (32, 7), (64, 5)], solid: &[(6, 3), (9, 3), (12, 3)], seed },
+        Effort::Smoke => Plan { sizes: &[(8, 12), (16, 8), (32, 6)], solid: &[(4, 1), (6, 1), (9, 1)], seed },
+        Effort::Full => Plan { sizes: &[(16, 10), (32, 7), (64, 5)], solid: &[(6, 1), (9, 1), (12, 1)], seed },
     }
 }
 
 fn run(setting: &Setting) -> Vec<Finding> {
     let [mut control, mut pointwise, mut weak, mut planted] = [(); 4].map(|()| Every::default());
     let (mut table, mut shown) = (Vec::new(), Vec::new());
-    for &sequence in ALL.iter().filter(|s| setting.effort == Effort::Full || is_quick(**s)) {
+    // In random cubes that are coarse enough to be solved here the part of the residual that is random is not yet the larger one.
+    let tried = |s: &&Sequence| s.place != Place::Cube || s.way == Way::Structured;
+    let quick = |s: &&Sequence| setting.effort == Effort::Full || is_quick(**s);
+    for &sequence in ALL.iter().filter(tried).filter(quick) {
         let mut contestants = elements();
         if sequence == SQUARE {
             contestants.extend(others());

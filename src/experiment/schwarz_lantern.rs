@@ -166,7 +166,7 @@ impl Study {
 
 fn studies(setting: &Setting) -> Result<Vec<Study>, String> {
     let (square, flat) = match setting.effort {
-        Effort::Smoke => ([6, 8, 10, 12].as_slice(), [10, 14, 20, 28].as_slice()),
+        Effort::Smoke => ([8, 12, 16].as_slice(), [10, 14, 20, 28].as_slice()),
         Effort::Full => ([6, 8, 12, 16, 20].as_slice(), [12, 18, 27, 40, 60].as_slice()),
     };
     let families =

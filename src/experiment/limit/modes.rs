@@ -42,12 +42,12 @@ impl Cluster {
 }
 
 impl Place {
-    /// The eigenspaces of the smallest positive eigenvalues, ascending: three; two on the sphere, where many functions share one, and one in
-    /// the cube, where meshes are coarse.
+    /// The eigenspaces of the smallest positive eigenvalues, ascending: three; two on the sphere and in the cube,
+    /// where many functions share one.
     pub fn eigenspaces(self, boundary: Boundary) -> Vec<Cluster> {
         match self {
             Place::Square => cube::<2>(boundary),
-            Place::Cube => cube::<3>(boundary).into_iter().take(1).collect(),
+            Place::Cube => cube::<3>(boundary).into_iter().take(2).collect(),
             Place::Disc => disc(boundary),
             Place::Torus => torus(),
             Place::Sphere => sphere(),
@@ -167,8 +167,8 @@ mod tests {
         use Boundary::{Dirichlet, Natural};
         assert_eq!(found(Place::Square, Dirichlet, PI * PI), [(2.0, 1), (5.0, 2), (8.0, 1)]);
         assert_eq!(found(Place::Square, Natural, PI * PI), [(1.0, 2), (2.0, 1), (4.0, 2)]);
-        assert_eq!(found(Place::Cube, Dirichlet, PI * PI), [(3.0, 1)]);
-        assert_eq!(found(Place::Cube, Natural, PI * PI), [(1.0, 3)]);
+        assert_eq!(found(Place::Cube, Dirichlet, PI * PI), [(3.0, 1), (6.0, 3)]);
+        assert_eq!(found(Place::Cube, Natural, PI * PI), [(1.0, 3), (2.0, 3)]);
         assert_eq!(found(Place::Torus, Natural, TAU * TAU), [(1.0, 4), (2.0, 4), (4.0, 4)]);
         assert_eq!(found(Place::Sphere, Natural, 1.0), [(2.0, 3), (6.0, 5)]);
         // 2.404826², 3.831706², 5.135622²; 1.841184², 3.054237², 3.831706².

@@ -101,10 +101,11 @@ impl Trend {
         matches!(self, Trend::Converges(_) | Trend::Exact)
     }
 
-    /// Whether it converges with an order nearer to `p` than to `p − 1`, the next one that theory knows, or a larger one; or is exact.
+    /// Whether it converges with an interval that reaches `p` or an order nearer to `p` than to `p − 1`, the next one that theory
+    /// knows; or is exact.
     pub fn reaches(&self, p: f64) -> bool {
         match self {
-            Trend::Converges(order) => order.p > p - DIVIDE,
+            Trend::Converges(order) => order.p + order.half_width.max(DIVIDE) >= p,
             other => *other == Trend::Exact,
         }
     }
@@ -203,8 +204,9 @@ mod tests {
             for r in [1, 2] {
                 let trend = judge(&levels(|h| h * h * (1.0 + c * h.powi(r))));
                 let Trend::Converges(order) = trend else { panic!("{c} {r}: {trend}") };
+                // A fifth for what the first order in c hʳ leaves out: it is as large as ⅜.
                 assert!(
-                    (order.p - 2.0).abs() <= 1.1 * order.half_width && order.half_width < 0.6,
+                    (order.p - 2.0).abs() <= 1.2 * order.half_width && order.half_width < 0.6,
                     "{c} {r}: {order:?}"
                 );
             }

@@ -51,9 +51,10 @@ pub const ALL: &[Sequence] = &[
     sequence(Place::Cube, Way::Random),
 ];
 
-/// Whether a sequence is among those for a quick look: neither flipped nor a disc of random vertices.
+/// Whether a sequence is among those for a quick look: neither flipped, nor a disc or a cube of random vertices.
 pub fn is_quick(sequence: Sequence) -> bool {
-    sequence.way == Way::Structured || sequence.way == Way::Random && sequence.place != Place::Disc
+    let drawn = sequence.way == Way::Random && ![Place::Disc, Place::Cube].contains(&sequence.place);
+    sequence.way == Way::Structured || drawn
 }
 
 impl Sequence {
