@@ -228,6 +228,32 @@ fn a_drawing_without_a_vertex_inside_is_no_equilibrium() {
 }
 
 #[test]
+fn every_vertex_inside_is_in_equilibrium() {
+    // At the reflex corner, and not in the mean of all four.
+    let put = Drawing { inside: 0, afloat: 1, ..dart() };
+    refused_for(&put.folded(Hypothesis::ConvexBoundary), "the force at vertex 4 vanishes");
+}
+
+#[test]
+fn a_weight_stands_on_an_edge_with_an_end_inside_once() {
+    let malformed = "is not of an edge a < b with an end inside, once";
+    let listed = |at: usize, weight: (usize, usize, f64)| {
+        let mut evidence = dart().folded(Hypothesis::ConvexBoundary);
+        let Statement::NotEmbedded { weights, .. } = &mut evidence.statement else { unreachable!() };
+        weights.insert(at, weight);
+        evidence
+    };
+    // One beside the right one, one overwritten by it, and one on a side of the polygon.
+    refused_for(&listed(4, (0, 4, 1.0)), malformed);
+    refused_for(&listed(0, (0, 4, 7.0)), malformed);
+    refused_for(&listed(0, (0, 1, 0.0)), malformed);
+    let mut evidence = dart().folded(Hypothesis::ConvexBoundary);
+    let Statement::NotEmbedded { weights, .. } = &mut evidence.statement else { unreachable!() };
+    weights[0] = (4, 0, 1.0);
+    refused_for(&evidence, malformed);
+}
+
+#[test]
 fn an_edge_without_a_weight_is_one_that_is_not_there() {
     let mut loose = dart();
     loose.weights.retain(|w| w.0 != [0, 4]);

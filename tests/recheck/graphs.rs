@@ -101,6 +101,9 @@ fn flips_of_a_torus_start_from_a_basis_turned_to_the_left() {
     for start in [[[2, 0], [0, 1]], [[0, 1], [1, 0]], [[1, 0], [-1, 0]], [[0, 0], [0, 0]]] {
         refused_for(&torus(start, 0, start), "the edges are a positive basis of ℤ²");
     }
+    // A sheared one takes a flip for each of its steps, and no fewer.
+    let sheared = [[1, 0], [3, 1]];
+    refused_for(&torus(sheared, 0, sheared), "after 0 flips every edge is Delaunay");
     refused_for(&torus(squares, 0, [[0, 1], [-1, 0]]), "the edges at the end are those written down");
 }
 

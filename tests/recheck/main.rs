@@ -4,6 +4,7 @@ mod certificates;
 mod cotangents;
 mod drawings;
 mod equilibria;
+mod excerpts;
 mod flips;
 mod graphs;
 mod imports;
