@@ -205,7 +205,7 @@ fn energy(points: &[[i64; 3]; 5], tets: &[[usize; 4]], u: &[i64; 5]) -> Rational
         let volume = (0..3).map(|j| side(0, j) * minor(j)).fold(whole(0), |s, x| s + x);
         let volume = if volume < whole(0) { -volume } else { volume };
         let square = (0..3).map(|k| gradient.at(k, 0).clone() * gradient.at(k, 0).clone()).fold(whole(0), |s, x| s + x);
-        total = total + square * volume / whole(12);
+        total += square * volume / whole(12);
     }
     total
 }

@@ -62,7 +62,9 @@ fn determinant(a: &Dense<Rational>) -> Rational {
     let rest: Vec<usize> = (1..n).collect();
     let minor = |j: usize| {
         let columns: Vec<usize> = (0..n).filter(|k| *k != j).collect();
-        a.at(0, j).clone() * determinant(&a.submatrix(&rest, &columns)) * whole(if j % 2 == 0 { 1 } else { -1 })
+        a.at(0, j).clone()
+            * determinant(&a.submatrix(&rest, &columns))
+            * whole(if j.is_multiple_of(2) { 1 } else { -1 })
     };
     (0..n).map(minor).fold(whole(0), |sum, x| sum + x)
 }
@@ -173,7 +175,7 @@ fn a_drum_without_a_vertex_inside_makes_no_sound() {
 /// A strip of n points in two rows.
 fn strip(n: usize) -> Mesh {
     let points: Vec<[i64; 2]> = (0..n as i64).map(|k| [k, k % 2]).collect();
-    let turned = |k: usize| if k % 2 == 0 { [k, k + 2, k + 1] } else { [k, k + 1, k + 2] };
+    let turned = |k: usize| if k.is_multiple_of(2) { [k, k + 2, k + 1] } else { [k, k + 1, k + 2] };
     mesh(&points, &(0..n - 2).map(turned).collect::<Vec<_>>())
 }
 
