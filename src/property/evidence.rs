@@ -429,9 +429,9 @@ pub enum Statement {
         entries: usize,
     },
     // ── about triangulations, decided by what is written down and nothing else ─────────────────────────────────────
-    /// Rippa in the plane. From the faces of the excerpt (whole numbers as positions) the flips lead one after the other to the
-    /// Delaunay triangulation `end`; the cotangent stiffness falls with each by `κ w wᵀ`, κ > 0, and altogether by their sum:
-    /// `L_T − L_D = Σ κ w wᵀ`. All positions, all faces.
+    /// Rippa in the plane. From the faces of the excerpt, a triangulation of the convex hull of its positions (whole numbers), the
+    /// flips lead one after the other to the Delaunay triangulation `end`; the cotangent stiffness falls with each by `κ w wᵀ`,
+    /// κ > 0, and altogether by their sum: `L_T − L_D = Σ κ w wᵀ`. All positions, all faces.
     FlipsToDelaunay {
         /// The flips in their order.
         flips: Vec<Flip>,
@@ -455,8 +455,8 @@ pub enum Statement {
         energies: [String; 2],
     },
     /// MAX-global with a negative weight: the cotangent weight of the edge (i, j), with an end inside, is negative on the
-    /// triangulation of the excerpt (whole numbers as positions, all faces), and yet every entry of the harmonic extension
-    /// `−L_II⁻¹ L_IB` from the boundary B is at least `smallest` > 0.
+    /// triangulation of a simple polygon in the excerpt (whole numbers as positions, all faces), and yet every entry of the
+    /// harmonic extension `−L_II⁻¹ L_IB` from the boundary B is at least `smallest` > 0.
     PositiveExtension {
         /// One end.
         i: usize,
@@ -511,7 +511,7 @@ pub enum Statement {
         /// The coefficients of the polynomial, ascending.
         polynomial: Vec<Fraction>,
     },
-    /// Two polygons, triangulated, are not congruent, and their eigenvalue problems are the same one: with R invertible,
+    /// Two simple polygons, triangulated, are not congruent, and their eigenvalue problems are the same one: with R invertible,
     /// `X_B R = S X_A` for the cotangent stiffness, the barycentric and the consistent mass X. Under Dirichlet S is R, and `X = I`
     /// fits as well, so that the stiffness alone has one spectrum.
     Transplantation {
@@ -528,7 +528,7 @@ pub enum Statement {
         /// The squared lengths of the sides of both polygons in their order, wherever that starts: no congruence takes one to the other.
         outlines: [Vec<u64>; 2],
     },
-    /// A witness against isospectrality: the cotangent eigenvalue problems of two triangulated polygons have different numbers of
+    /// A witness against isospectrality: the cotangent eigenvalue problems of two triangulated simple polygons have different numbers of
     /// eigenvalues below `sigma`.
     SpectraDiffer {
         /// One mesh.

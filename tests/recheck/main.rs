@@ -1,11 +1,18 @@
 //! Evidence, each kind with a true example made by hand, spoilt in several ways.
 
 mod certificates;
+mod cotangents;
+mod drawings;
+mod equilibria;
+mod excerpts;
+mod flips;
 mod forms;
+mod graphs;
 mod imports;
 mod mutation;
 mod operators;
 mod performance;
+mod polygons;
 mod spectra;
 mod spoilt;
 mod triangulations;
@@ -80,6 +87,29 @@ impl Example {
             Ok(found) => panic!("{}, {what}: accepted as {found:?}", self.name),
         }
     }
+}
+
+/// Asserts that forged evidence is refused, on its excerpt alone, for the one thing that is wrong with it.
+#[track_caller]
+pub fn refused_for(evidence: &Evidence, reason: &str) {
+    let refusal = from_excerpt(evidence).expect_err(reason).to_string();
+    assert!(refusal.contains(reason), "not for '{reason}': {refusal}");
+}
+
+/// Asserts that evidence is true, decided exactly on its excerpt alone: what a forgery starts from.
+#[track_caller]
+pub fn accepted(evidence: &Evidence) {
+    assert_eq!(from_excerpt(evidence), Ok(Rechecked::Exact));
+}
+
+/// Asserts that evidence is left open as being about too much.
+#[track_caller]
+pub fn too_many(evidence: &Evidence) {
+    let answer = from_excerpt(evidence);
+    assert!(
+        matches!(&answer, Ok(Rechecked::Open(why)) if why.contains("too many") || why.contains("more than")),
+        "{answer:?}"
+    );
 }
 
 pub fn all() -> Vec<Example> {

@@ -10,6 +10,8 @@ use lapjury::property::recheck::{Rechecked, from_excerpt};
 use lapjury::property::{Evidence, Statement};
 use lapjury::scalar::Rational;
 
+use crate::refused_for;
+
 fn whole(x: i64) -> Rational {
     Rational::from(x)
 }
@@ -61,12 +63,6 @@ fn against_rippa(first: &Mesh, second: &Mesh) -> Evidence {
         ..Excerpt::default()
     };
     Evidence { statement, excerpt }
-}
-
-#[track_caller]
-fn refused_for(evidence: &Evidence, reason: &str) {
-    let refusal = from_excerpt(evidence).expect_err(reason).to_string();
-    assert!(refusal.contains(reason), "{refusal}");
 }
 
 const RHOMBUS: [[i64; 2]; 4] = [[0, 0], [3, -1], [6, 0], [3, 1]];

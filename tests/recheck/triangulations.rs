@@ -10,7 +10,7 @@ use lapjury::property::{Evidence, Statement};
 use serde_json::Value;
 
 /// The evidence of the experiments that is decided without an operator, all of it.
-fn evidence() -> &'static [Evidence] {
+pub fn evidence() -> &'static [Evidence] {
     static FOUND: OnceLock<Vec<Evidence>> = OnceLock::new();
     FOUND.get_or_init(|| {
         let experiments = [

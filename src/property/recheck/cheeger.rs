@@ -42,6 +42,9 @@ pub(super) fn below(m: &Material, x: &SparseVector, side: &[usize]) -> Answer {
         ));
     }
     let x = vector(x)?;
+    if let Some((&index, _)) = x.range(n..).next() {
+        return Err(Refusal::Missing { what: "row", index });
+    }
     let at = |v: usize| x.get(&v).copied().map_or_else(Rational::zero, exact);
     let degree = |i: usize| weights[i].iter().fold(Rational::zero(), |sum, w| sum + w.clone());
     let (mut energy, mut square, mut mean, mut total) =
@@ -69,13 +72,12 @@ fn weights(m: &Material, n: usize) -> Result<Vec<Vec<Rational>>, Refusal> {
         let mut sum = Rational::zero();
         for &(j, v) in m.rows.row(i)? {
             sum += exact(v);
-            if j >= n {
-                return Err(Refusal::Missing { what: "row", index: j });
-            }
+            // A column without a row is refused here.
+            let opposite = m.rows.entry(j, i)?;
             if i == j {
                 continue;
             }
-            if v > 0.0 || m.rows.entry(j, i)? != v {
+            if v > 0.0 || opposite != v {
                 return Err(Refusal::untrue(format!("ω_{i},{j} is a positive symmetric weight"), (-v).to_string()));
             }
             list[j] = -exact(v);

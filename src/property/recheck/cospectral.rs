@@ -73,7 +73,7 @@ impl Neighbours {
 pub(super) fn decide(vertices: usize, edges: [&[[usize; 2]]; 2], normalised: bool, polynomial: &[Fraction]) -> Answer {
     let read = |(k, text): (usize, &Fraction)| lowest_terms("coefficient", k, text);
     let coefficients: Vec<Rational> = polynomial.iter().enumerate().map(read).collect::<Result<_, _>>()?;
-    if coefficients.len() != vertices + 1 || coefficients.last() != Some(&Rational::ONE) {
+    if coefficients.len().checked_sub(1) != Some(vertices) || coefficients.last() != Some(&Rational::ONE) {
         return Err(Refusal::untrue(
             "the polynomial is monic, of a degree that is the number of vertices",
             "it is not",

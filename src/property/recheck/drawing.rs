@@ -7,11 +7,10 @@ use std::str::FromStr;
 use dashu_int::IBig;
 
 use super::alone::{check_exact, fraction, triangles, whole, written};
+use super::polygon::{self, Point, minus};
 use super::{Answer, Rechecked, Refusal};
 use crate::property::evidence::{Excerpt, Fault, Hypothesis};
 use crate::scalar::{Rational, Scalar};
-
-type Point = [Rational; 2];
 
 /// What a statement says of a drawing.
 pub(super) struct Drawn<'a> {
@@ -35,10 +34,11 @@ struct Graph {
 
 /// Every hypothesis but one holds, that one does not, the inner vertices are in equilibrium, and the fault is there.
 pub(super) fn decide(excerpt: &Excerpt, drawn: &Drawn, missing: Hypothesis, fault: &Fault) -> Answer {
-    if !excerpt.positions.is_empty() || !excerpt.rows.is_empty() || !excerpt.edges.is_empty() {
+    let Excerpt { rows, mass_rows, positions, edges, faces } = excerpt;
+    if !(rows.is_empty() && mass_rows.is_empty() && positions.is_empty() && edges.is_empty()) {
         return Err(Refusal::untrue("the excerpt carries faces only", "it carries more"));
     }
-    let graph = Graph::read(drawn, triangles(&excerpt.faces)?)?;
+    let graph = Graph::read(drawn, triangles(faces)?)?;
     check_exact("the checksum", drawn.checksum, &graph.checksum())?;
     graph.check_equilibrium()?;
     graph.check_boundary(missing)?;
@@ -57,8 +57,8 @@ impl Graph {
         if let Some(&index) = mentioned.chain(faces.iter().flatten()).find(|&&v| v >= n) {
             return Err(Refusal::Missing { what: "position", index });
         }
-        let distinct: BTreeSet<&usize> = drawn.boundary.iter().collect();
-        if drawn.boundary.len() < 3 || distinct.len() != drawn.boundary.len() {
+        // A vertex that is on it twice is refused with the polygons that are not simple.
+        if drawn.boundary.len() < 3 {
             return Err(Refusal::untrue("the boundary is a cycle", "it is not"));
         }
         let mut weights = BTreeMap::new();
@@ -120,8 +120,7 @@ impl Graph {
     }
 
     fn area(&self, a: usize, b: usize, c: usize) -> Rational {
-        let (u, v) = (minus(&self.at[b], &self.at[a]), minus(&self.at[c], &self.at[a]));
-        (u[0].clone() * v[1].clone() - u[1].clone() * v[0].clone()).reduced()
+        polygon::area(&self.at[a], &self.at[b], &self.at[c])
     }
 
     fn turns(&self) -> Vec<Ordering> {
@@ -145,46 +144,12 @@ impl Graph {
             Hypothesis::NoChordOnASide => !turns.contains(&Ordering::Less),
             _ => turns.iter().all(|t| *t == Ordering::Greater),
         };
-        if !fits || self.polygon().cmp_zero() != Ordering::Greater || !self.is_simple() {
+        let corners: Vec<Point> = self.boundary.iter().map(|&v| self.at[v].clone()).collect();
+        if !fits || self.polygon().cmp_zero() != Ordering::Greater || !polygon::is_simple(&corners) {
             let stated = format!("the boundary is a simple polygon, as it must be where {missing:?} alone is missing");
             return Err(Refusal::untrue(stated, format!("its corners turn {turns:?}")));
         }
         Ok(())
-    }
-
-    /// No two sides meet but at the corner that they share.
-    fn is_simple(&self) -> bool {
-        let sides: Vec<[usize; 2]> = self.sides().collect();
-        let n = sides.len();
-        let apart = |p: [usize; 2], q: [usize; 2]| {
-            let side = |[a, b]: [usize; 2], c: usize| self.area(a, b, c).cmp_zero();
-            let crossed = |x: Ordering, y: Ordering| x != y || x == Ordering::Equal;
-            let all_on_a_line = [side(p, q[0]), side(p, q[1])] == [Ordering::Equal; 2];
-            if all_on_a_line {
-                return !self.overlap_on_a_line(p, q);
-            }
-            !(crossed(side(p, q[0]), side(p, q[1])) && crossed(side(q, p[0]), side(q, p[1])))
-        };
-        let neighbours = |k: usize| {
-            // Two sides at a corner meet nowhere else unless the second runs back along the first.
-            let ([a, b], c) = (sides[k], sides[(k + 1) % n][1]);
-            let (u, v) = (minus(&self.at[b], &self.at[a]), minus(&self.at[c], &self.at[b]));
-            let along = u[0].clone() * v[0].clone() + u[1].clone() * v[1].clone();
-            self.area(a, b, c).cmp_zero() != Ordering::Equal || along.cmp_zero() == Ordering::Greater
-        };
-        let far = |i: usize, j: usize| i + 1 < j && !(i == 0 && j == n - 1);
-        (0..n).all(neighbours) && (0..n).all(|i| (0..n).all(|j| !far(i, j) || apart(sides[i], sides[j])))
-    }
-
-    fn overlap_on_a_line(&self, p: [usize; 2], q: [usize; 2]) -> bool {
-        let range = |e: [usize; 2], axis: usize| {
-            let [x, y] = e.map(|v| self.at[v][axis].clone());
-            if x < y { (x, y) } else { (y, x) }
-        };
-        (0..2).all(|axis| {
-            let ((a, b), (c, d)) = (range(p, axis), range(q, axis));
-            a <= d && c <= b
-        })
     }
 
     fn check_weights(&self, missing: Hypothesis) -> Result<(), Refusal> {
@@ -254,7 +219,7 @@ impl Graph {
         for v in 0..self.at.len() {
             let at: Vec<&[usize; 3]> = self.faces.iter().filter(|f| f.contains(&v)).collect();
             let share = |f: &[usize; 3], g: &[usize; 3]| f.iter().any(|&w| w != v && g.contains(&w));
-            if at.is_empty() || !hangs_together(at.len(), |i, j| share(at[i], at[j])) {
+            if !hangs_together(at.len(), |i, j| share(at[i], at[j])) {
                 return Err(Refusal::untrue("the faces at a vertex form one fan", format!("not at vertex {v}")));
             }
         }
@@ -267,6 +232,13 @@ impl Graph {
     /// At most four vertices, connected, and no longer so without one or two of them.
     fn check_loosely_connected(&self) -> Result<(), Refusal> {
         let n = self.at.len();
+        let another = || {
+            let stated = "the graph has at most four vertices, is connected and not 3-connected";
+            Err(Refusal::untrue(stated, "it is another one"))
+        };
+        if n > 4 || !self.faces.is_empty() {
+            return another();
+        }
         let edges = self.edges();
         let joined = |a: usize, b: usize| edges.contains(&[a.min(b), a.max(b)]);
         let without = |gone: &[usize]| {
@@ -274,13 +246,7 @@ impl Graph {
             hangs_together(left.len(), |i, j| joined(left[i], left[j]))
         };
         let separated = (0..n).any(|a| (0..n).any(|b| !without(&[a, b])));
-        if n <= 4 && self.faces.is_empty() && without(&[]) && separated {
-            return Ok(());
-        }
-        Err(Refusal::untrue(
-            "the graph has at most four vertices, is connected and not 3-connected",
-            "it is another one",
-        ))
+        if without(&[]) && separated { Ok(()) } else { another() }
     }
 
     fn check_fault(&self, missing: Hypothesis, fault: &Fault) -> Result<(), Refusal> {
@@ -341,10 +307,6 @@ fn hangs_together(n: usize, joined: impl Fn(usize, usize) -> bool) -> bool {
         }
     }
     n == 0 || reached.len() == n
-}
-
-fn minus(p: &Point, q: &Point) -> Point {
-    [(p[0].clone() - q[0].clone()).reduced(), (p[1].clone() - q[1].clone()).reduced()]
 }
 
 /// Reads `p` or `p/q`, in lowest terms.

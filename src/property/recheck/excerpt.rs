@@ -233,7 +233,7 @@ fn not_copied(
     Refusal::NotCopied { what, index, copied: format!("{copied:?}"), actual: format!("{actual:?}") }
 }
 
-/// Refuses an excerpt that leaves out part of the star or of the edge of which its statement speaks.
+/// Refuses an excerpt that leaves out part of the star, of the edge or of the triangulation of which its statement speaks.
 pub(super) fn check_whole(statement: &Statement, excerpt: &Excerpt, domain: &Domain) -> Result<(), Refusal> {
     let n = domain.vertex_count();
     let in_range = |v: usize| if v < n { Ok(()) } else { Err(Refusal::Missing { what: "vertex", index: v }) };
@@ -251,6 +251,22 @@ pub(super) fn check_whole(statement: &Statement, excerpt: &Excerpt, domain: &Dom
             let Some(surface) = domain.as_surface() else { return Ok(()) };
             let sides = surface.topology().edge_between(i, j).map_or(&[][..], |e| surface.topology().sides(e));
             check_faces(sides.iter().map(|s| s.face()), excerpt)
+        }
+        Statement::Lift { .. }
+        | Statement::Equilibrium { .. }
+        | Statement::Motion { .. }
+        | Statement::NoLift { .. }
+        | Statement::FlipsToDelaunay { .. }
+        | Statement::PositiveExtension { .. }
+        | Statement::NotEmbedded { .. }
+        | Statement::DelaunayEigenvalue { .. } => {
+            // Those that are there were found to be faces of the domain, each once.
+            let (there, all) = (excerpt.faces.len(), domain.as_surface().map_or(0, |s| s.faces().len()));
+            if there == all {
+                Ok(())
+            } else {
+                Err(Refusal::Missing { what: "every face, of which there are", index: all })
+            }
         }
         _ => Ok(()),
     }

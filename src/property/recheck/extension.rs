@@ -12,7 +12,7 @@ use crate::scalar::{Rational, Scalar};
 /// The weight of an interior edge with an end inside is negative, and the harmonic extension from the boundary positive.
 pub(super) fn decide(excerpt: &Excerpt, [i, j]: [usize; 2], weight: &str, smallest: &str) -> Answer {
     let mesh = Planar::read(excerpt)?;
-    let boundary: BTreeSet<usize> = mesh.boundary().into_iter().flatten().collect();
+    let boundary: BTreeSet<usize> = mesh.outline()?.into_iter().collect();
     let inside: Vec<usize> = (0..mesh.points.len()).filter(|v| !boundary.contains(v)).collect();
     let edge = mesh.faces.iter().any(|f| f.contains(&i) && f.contains(&j)) && i < j;
     if !edge || !(inside.contains(&i) || inside.contains(&j)) {

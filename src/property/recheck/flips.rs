@@ -21,6 +21,7 @@ pub(super) fn decide(
     energies: &[f64],
 ) -> Answer {
     let mut mesh = Planar::read(excerpt)?;
+    mesh.check_fills_the_hull()?;
     let u = read_values(values, mesh.points.len())?;
     if energies.len() != flips.len() + 1 {
         return Err(Refusal::untrue(format!("there are {} energies", flips.len() + 1), energies.len().to_string()));

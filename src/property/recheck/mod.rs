@@ -42,6 +42,7 @@ mod maximum;
 mod moment;
 mod place;
 mod planar;
+mod polygon;
 mod precision;
 mod profile;
 mod qr;
@@ -208,6 +209,7 @@ pub fn against(evidence: &Evidence, property: &str, domain: &Domain, operator: &
     relevance::check(statement, property)?;
     let material = Material::read(&evidence.excerpt)?;
     excerpt::check_copy(&evidence.excerpt, domain, operator)?;
+    excerpt::check_whole(statement, &evidence.excerpt, domain)?;
     if let Some(answer) = alone::decide(evidence) {
         return answer;
     }
@@ -215,7 +217,6 @@ pub fn against(evidence: &Evidence, property: &str, domain: &Domain, operator: &
         certificate::check_numbers(statement)?;
         return certificate::decide(statement, property, domain, operator);
     }
-    excerpt::check_whole(statement, &evidence.excerpt, domain)?;
     let answer = if relevance::needs_everything(statement) {
         let whole = excerpt::whole(domain, operator);
         witness::decide(statement, &Material::read(&whole)?)?

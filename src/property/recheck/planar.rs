@@ -5,8 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use dashu_int::IBig;
 
-use super::Refusal;
 use super::alone::{fraction, triangles, whole_positions};
+use super::{Refusal, polygon};
 use crate::property::evidence::{Excerpt, Mesh, Weighting};
 use crate::scalar::{Rational, Scalar};
 
@@ -108,6 +108,41 @@ impl Planar {
             }
         }
         Ok(())
+    }
+
+    /// Refuses triangles that are no triangulation of the convex hull: the boundary runs once around with every point on its left,
+    /// so that the triangles, all counter-clockwise, cover every place inside once.
+    pub fn check_fills_the_hull(&self) -> Result<(), Refusal> {
+        let boundary = self.boundary();
+        let starts: BTreeSet<usize> = boundary.iter().map(|e| e[0]).collect();
+        let left = |&[a, b]: &[usize; 2]| (0..self.points.len()).all(|v| self.area(a, b, v) >= IBig::ZERO);
+        if starts.len() == boundary.len() && boundary.iter().all(left) {
+            return Ok(());
+        }
+        Err(Refusal::untrue("the triangles fill the convex hull", "they do not"))
+    }
+
+    /// The vertices of the boundary in their order, if it is one simple polygon. Then it runs once around every place inside, so
+    /// that the triangles, all counter-clockwise, cover each of them once: they are a triangulation of the polygon.
+    pub fn outline(&self) -> Result<Vec<usize>, Refusal> {
+        let boundary = self.boundary();
+        let next: BTreeMap<usize, usize> = boundary.iter().map(|&[a, b]| (a, b)).collect();
+        let mut cycle: Vec<usize> = next.keys().take(1).copied().collect();
+        while let Some(&v) = cycle.last().and_then(|v| next.get(v)).filter(|v| **v != cycle[0]) {
+            if cycle.len() == next.len() {
+                break;
+            }
+            cycle.push(v);
+        }
+        // A vertex from which two edges go on has one of them in the map.
+        if next.len() != boundary.len() || cycle.len() != next.len() || cycle.is_empty() {
+            return Err(Refusal::untrue("the boundary is one polygon", "it is not"));
+        }
+        let corners: Vec<_> = cycle.iter().map(|&v| self.points[v].clone().map(Rational::from)).collect();
+        if polygon::is_simple(&corners) {
+            return Ok(cycle);
+        }
+        Err(Refusal::untrue("the boundary is a simple polygon", "it meets itself"))
     }
 
     /// The cotangent stiffness: each corner adds half its cotangent, dot product over twice the area, to the edge opposite.

@@ -1,7 +1,6 @@
 //! Two polygons that are not congruent, with one eigenvalue problem: `X_B R = S X_A`.
 
 use std::cmp::Ordering;
-use std::collections::BTreeMap;
 
 use dashu_int::IBig;
 
@@ -100,18 +99,7 @@ fn product(a: &[Vec<Rational>], b: &[Vec<Rational>]) -> Vec<Vec<Rational>> {
 
 /// The squared lengths of the sides of the boundary polygon in their order, straight corners left out.
 fn outline(mesh: &Planar) -> Result<Vec<IBig>, Refusal> {
-    let boundary = mesh.boundary();
-    let next: BTreeMap<usize, usize> = boundary.iter().map(|&[a, b]| (a, b)).collect();
-    let mut cycle: Vec<usize> = next.keys().take(1).copied().collect();
-    while let Some(&v) = cycle.last().and_then(|v| next.get(v)).filter(|v| **v != cycle[0]) {
-        if cycle.len() > next.len() {
-            break;
-        }
-        cycle.push(v);
-    }
-    if cycle.len() != boundary.len() || boundary.is_empty() {
-        return Err(Refusal::untrue("the boundary is one polygon", "it is not"));
-    }
+    let cycle = mesh.outline()?;
     let n = cycle.len();
     let side = |k: usize| {
         let [p, q] = [k, k + 1].map(|k| &mesh.points[cycle[k % n]]);
