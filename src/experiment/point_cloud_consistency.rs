@@ -203,11 +203,11 @@ struct Job {
 fn studies(setting: &Setting) -> (Vec<Study>, Vec<String>) {
     // Small clouds cost little and vary more.
     let draws = |shape: Shape, way: Way, level: usize| match (shape, way) {
-        (Shape::Circle, _) => setting.pick(6, 12),
-        (_, Way::Jittered) => setting.pick(2, 8 >> level),
-        (_, Way::Random) => setting.pick(2, 16 >> level),
+        (Shape::Circle, _) => setting.pick(3, 8),
+        (_, Way::Jittered) => setting.pick(5 >> level, 8 >> level),
+        (_, Way::Random) => setting.pick(7 >> level, 16 >> level),
     };
-    let levels = |shape: Shape| if shape == Shape::Circle { 5 } else { 3 };
+    let levels = |shape: Shape| if shape == Shape::Circle { 4 } else { 3 };
     let pairs = || SHAPES.into_iter().flat_map(|shape| WAYS.map(|way| (shape, way)));
     let jobs = |(shape, way): (Shape, Way)| {
         let job = move |level| (0..draws(shape, way, level)).map(move |draw| Job { shape, way, level, draw });

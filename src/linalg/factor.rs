@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::solvers::{Solve, SolveCore};
+use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_upper_triangular_in_place};
 use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LdltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
@@ -317,6 +318,27 @@ pub fn symmetric_eigen(a: &Csr) -> Result<(Vec<f64>, Vec<Vec<f64>>), FactorError
     let eigen = dense(a).self_adjoint_eigen(Side::Lower).map_err(|_| FactorError::Unfinished)?;
     let values = (0..n).map(|k| eigen.S().column_vector()[k]).collect();
     let vectors = (0..n).map(|k| (0..n).map(|i| eigen.U()[(i, k)]).collect()).collect();
+    Ok((values, vectors))
+}
+
+/// All eigenvalues of the pencil `(L, M)`, ascending, and M-orthonormal eigenvectors, through the Cholesky factor of M: the
+/// eigenvalues of `G⁻¹ L G⁻ᵀ`, `M = G Gᵀ`. Of both matrices the lower triangle is read. Dense: O(n³).
+///
+/// # Errors
+/// Matrices that are not square or not finite, an iteration that did not converge; `Singular` where M is not positive definite.
+pub(super) fn pencil_eigen(stiffness: &Csr, mass: &Csr) -> Result<(Vec<f64>, Mat<f64>), FactorError> {
+    check(stiffness)?;
+    check(mass)?;
+    let factor = dense(mass).llt(Side::Lower).map_err(|_| FactorError::Singular)?;
+    let mut reduced = dense(stiffness);
+    solve_lower_triangular_in_place(factor.L(), reduced.as_mut(), Par::Seq);
+    // The rows of G⁻¹L, solved once more, are the columns of G⁻¹ L G⁻ᵀ.
+    let mut reduced = reduced.transpose().to_owned();
+    solve_lower_triangular_in_place(factor.L(), reduced.as_mut(), Par::Seq);
+    let eigen = reduced.self_adjoint_eigen(Side::Lower).map_err(|_| FactorError::Unfinished)?;
+    let values = (0..stiffness.rows()).map(|k| eigen.S().column_vector()[k]).collect();
+    let mut vectors = eigen.U().to_owned();
+    solve_upper_triangular_in_place(factor.L().transpose(), vectors.as_mut(), Par::Seq);
     Ok((values, vectors))
 }
 
