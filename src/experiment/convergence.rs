@@ -54,7 +54,7 @@ fn plan(setting: &Setting) -> Plan {
     let seed = setting.seed;
     match setting.effort {
         Effort::Smoke => Plan { sizes: &[(8, 8), (16, 6), (32, 4)], solid: &[(4, 1), (6, 1), (9, 1)], seed },
-        Effort::Full => Plan { sizes: &[(8, 10), (16, 10), (32, 5)], solid: &[(6, 12), (9, 8), (13, 2)], seed },
+        Effort::Full => Plan { sizes: &[(8, 10), (16, 10), (32, 5)], solid: &[(8, 10), (12, 6), (17, 2)], seed },
     }
 }
 
