@@ -43,7 +43,7 @@ impl Boundary {
 pub struct Smooth {
     /// u.
     pub value: fn([f64; 3]) -> f64,
-    /// ∇u, of the extension that [`Function`] speaks of.
+    /// ∇u, of the extension that [`Function`](super::modes::Function) speaks of.
     pub gradient: fn([f64; 3]) -> [f64; 3],
     /// −Δu.
     pub source: fn([f64; 3]) -> f64,
