@@ -186,6 +186,22 @@ mod tests {
     }
 
     #[test]
+    fn no_edge_joins_the_two_sides_of_a_separator() {
+        let k = 12;
+        let diagonals = (0..k * (k - 1)).filter(|x| x % k + 1 < k).map(|x| (x, x + k + 1));
+        let right = (0..k * k).filter(|x| x % k + 1 < k).map(|x| (x, x + 1));
+        let triangulated = graph(k * k, right.chain((0..k * (k - 1)).map(|x| (x, x + k))).chain(diagonals));
+        for graph in [grid(k), triangulated] {
+            let mut search = Search { graph: &graph, region: vec![0; k * k], level: vec![FAR; k * k] };
+            let parts = search.split(&(0..k * k).collect::<Vec<_>>(), 0);
+            assert!(parts.len() == 3 && parts[2].is_separator && parts.iter().all(|p| !p.vertices.is_empty()));
+            for &x in &parts[0].vertices {
+                assert!(graph.row(x).all(|(y, _)| !parts[1].vertices.contains(&y)), "{x}");
+            }
+        }
+    }
+
+    #[test]
     fn the_fill_of_a_grid_grows_as_n_log_n_and_a_star_does_not_fill_in() {
         // Row by row a grid of k × k fills in k³ entries: eight times as many for twice the side; n log n is 4.75 times. The
         // two are told apart half-way, at the square root of their product.

@@ -50,7 +50,7 @@ pub(super) struct Lanczos<'a> {
 pub(super) struct Ritz {
     pub(super) theta: Vec<f64>,
     pub(super) residual: Vec<f64>,
-    rotation: Mat<f64>,
+    pub(super) rotation: Mat<f64>,
 }
 
 impl<'a> Lanczos<'a> {
@@ -199,5 +199,31 @@ impl<'a> Lanczos<'a> {
 
     fn randomise(&mut self, block: &mut Panel, j: usize) {
         block.iter_mut().for_each(|row| row[j] = self.random.random::<f64>() - 0.5);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::linalg::factor::Elimination;
+
+    #[test]
+    fn a_space_that_is_exhausted_goes_on_with_vectors_orthogonal_to_it() {
+        // One eigenvalue of three hundred copies: after the first block there is nothing new in the Krylov space.
+        let mass = Csr::diagonal(&(0..300).map(|i| 1.0 + f64::from(i % 3)).collect::<Vec<_>>());
+        let l = mass.clone();
+        let factor = Elimination::row_by_row(&l).unwrap().factor(&l).unwrap();
+        let mut lanczos = Lanczos::new(&mass, 1).unwrap();
+        lanczos.grow(&factor, 80).unwrap();
+        let basis = lanczos.into_basis();
+        for (b, panel) in basis.iter().enumerate() {
+            let weighted = panel::apply(&mass, panel);
+            for (a, square) in panel::products(&basis, &weighted).iter().enumerate() {
+                for (i, j) in (0..WIDTH).flat_map(|i| (0..WIDTH).map(move |j| (i, j))) {
+                    let wanted = f64::from(u8::from(a == b && i == j));
+                    assert!((square[i][j] - wanted).abs() < 1e-10, "{a} {b} {i} {j}: {}", square[i][j]);
+                }
+            }
+        }
     }
 }

@@ -188,7 +188,8 @@ impl<'a> Pencil<'a> {
         let (residuals, defect) = self.defects(&values, vectors);
         let all = (2.0 * residuals.iter().map(|r| r * r).sum::<f64>() / self.domination / (1.0 - defect)).sqrt();
         let last = values.last().copied().unwrap_or(f64::NEG_INFINITY);
-        let certified = defect < 1.0 && last + all < cut - backward_error;
+        // From a defect of 1 on there is no bound: `all` is infinite or no number, and nothing is certified.
+        let certified = last + all < cut - backward_error;
         let closure = Closure { cut, count, backward_error, certified };
         let n = self.stiffness.rows();
         let entry = |j: usize, i: usize| vectors[j / WIDTH][i][j % WIDTH];
@@ -306,6 +307,35 @@ mod tests {
         let room = cut - found.values[count - 1];
         assert!(certified(0.0, 0.0) && certified(1e-9, 0.5 * room));
         assert!(!certified(room, 0.0) && !certified(0.0, 1.5 * room));
+    }
+
+    #[test]
+    fn an_eigenvector_with_a_value_off_by_delta_has_the_residual_delta_whatever_the_masses() {
+        let (l, _) = torus(15, 17);
+        for scale in [1e-3, 1.0, 40.0] {
+            let mass = Csr::diagonal(&(0..255).map(|i| scale * (1.0 + f64::from(i % 7))).collect::<Vec<_>>());
+            let pencil = Pencil::new(&l, &mass).unwrap();
+            let found = pencil.dense(20).unwrap();
+            let delta = 1e-3 / scale;
+            let values: Vec<f64> = found.values.iter().map(|v| v + delta).collect();
+            let entry = |i: usize, j: usize| if j < values.len() { found.vector(j)[i] } else { 0.0 };
+            let panel = |p: usize| (0..255).map(|i| std::array::from_fn(|q| entry(i, WIDTH * p + q))).collect();
+            let vectors: Vec<Panel> = (0..values.len().div_ceil(WIDTH)).map(panel).collect();
+            for residual in pencil.defects(&values, &vectors).0 {
+                assert!((residual / delta - 1.0).abs() < 1e-9, "{residual} is not {delta}");
+            }
+        }
+    }
+
+    #[test]
+    fn eigenvalues_below_zero_are_refused_by_either_shift() {
+        let (l, _) = torus(20, 20);
+        let unit = Csr::diagonal(&vec![1.0; 400]);
+        for (sunk, count) in [(0.1, 3), (0.1, 20), (0.1, 40), (0.5, 40)] {
+            let l = l.map(|i, j, v| if i == j { v - sunk } else { *v });
+            let found = lowest(&l, &unit, count, 0);
+            assert!(matches!(found, Err(SpectrumError::Indefinite { .. })), "{sunk} {count}");
+        }
     }
 
     #[test]

@@ -174,3 +174,56 @@ impl Spectrum {
         self
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use faer::Mat;
+
+    use super::*;
+    use crate::linalg::Csr;
+
+    /// Eigenvalues with their residuals, as Ritz pairs for a shift of 5.
+    fn ritz(pairs: &[(f64, f64)]) -> Ritz {
+        let mut pairs: Vec<(f64, f64)> =
+            pairs.iter().map(|(value, residual)| (1.0 / (value - 5.0), *residual)).collect();
+        pairs.sort_by(|a, b| b.0.abs().total_cmp(&a.0.abs()));
+        let (theta, residual) = pairs.into_iter().unzip();
+        Ritz { theta, residual, rotation: Mat::zeros(0, 0) }
+    }
+
+    #[test]
+    fn what_is_known_has_no_hole() {
+        let found = |pairs: &[(f64, f64)], below: usize| -> Vec<f64> {
+            known(&ritz(pairs), 5.0, below).iter().map(|k| (1e6 * k.value).round() / 1e6).collect()
+        };
+        let all = [(1.0, 0.0), (2.0, 1e-6), (7.0, 0.0), (8.0, 1e-6), (9.0, 0.0)];
+        assert_eq!(found(&all, 2), [1.0, 2.0, 7.0, 8.0, 9.0]);
+        // A value above the shift that is not known ends the list, one below it empties it, as does one that is not there.
+        let mut above = all;
+        above[3].1 = 1e-4;
+        assert_eq!(found(&above, 2), [1.0, 2.0, 7.0]);
+        let mut under = all;
+        under[0].1 = 1e-4;
+        assert_eq!(found(&under, 2), [0.0; 0]);
+        assert_eq!(found(&all, 3), [0.0; 0]);
+    }
+
+    #[test]
+    fn a_shift_inside_the_wanted_part_takes_fewer_solves_and_finds_the_same() {
+        let n = 2000;
+        let path = (0..n - 1).flat_map(|i| [(i, i, 1.0), (i + 1, i + 1, 1.0), (i, i + 1, -1.0), (i + 1, i, -1.0)]);
+        let (l, mass) = (Csr::from_triplets(n, n, &path.collect::<Vec<_>>()), Csr::diagonal(&vec![1e-2; n]));
+        let pencil = Pencil::new(&l, &mass).unwrap();
+        let elimination = Elimination::row_by_row(&pencil.shifted(1.0)).unwrap();
+        let within = pencil.shift_within(&elimination, 40).unwrap().unwrap();
+        assert!((14..=32).contains(&within.below) && within.below == pencil.count(&within.factor).0);
+        let sigma = pencil.below();
+        let outside = Shift { sigma, below: 0, factor: elimination.factor(&pencil.shifted(sigma)).unwrap() };
+        let [inside, outside] = [within, outside].map(|s| pencil.iterate(&elimination, s, 40, 1).unwrap());
+        assert!(inside.solves < outside.solves, "{} {}", inside.solves, outside.solves);
+        assert_eq!(inside.values.len(), outside.values.len());
+        for (a, b) in inside.values.iter().zip(&outside.values) {
+            assert!((a - b).abs() < 1e-9, "{a} {b}");
+        }
+    }
+}
